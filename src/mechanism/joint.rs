@@ -24,6 +24,8 @@ pub struct Joint<G: Space> {
     pub b: (usize, G::Vector),
     /// Unit axis in the first body, for drawings.
     pub axis: [f64; 3],
+    /// Of a universal joint its unit axis in the second body, for drawings.
+    pub second: Option<[f64; 3]>,
     /// What its first coordinate is as drawn, rad or m.
     pub zero: f64,
     /// The tree node that it carries, and whether its first body is the child.
@@ -48,6 +50,7 @@ impl<G: Space> Joint<G> {
             a: (self.a.0, G::lift_vector::<D>(self.a.1)),
             b: (self.b.0, G::lift_vector::<D>(self.b.1)),
             axis: self.axis,
+            second: self.second,
             zero: self.zero,
             tree: self.tree,
             slots: Vec::new(),

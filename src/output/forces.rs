@@ -26,6 +26,8 @@ const SPECKS: f64 = 10.0;
 const SEEN: f64 = 3.0;
 /// Room for the axes of space at the right, pixels.
 const AXES: f64 = 150.0;
+/// Where the foot of a picture begins at the left, pixels.
+const MARGIN: f64 = 30.0;
 /// Length of the head of an arrow, pixels.
 const HEAD: f64 = 13.0;
 
@@ -50,6 +52,8 @@ pub(super) struct Scales {
     force: [f64; 2],
     /// The largest torque of each kind, whose arrow has the largest radius, N m.
     torque: [f64; 2],
+    /// Whether they are those of a whole motion, not of the positions of a picture.
+    pub(super) of_motion: bool,
 }
 
 /// The scales of a drawing; those of forces that the study leaves open are a round number that suits a mechanism of this size, m: one for both
@@ -70,7 +74,8 @@ pub(super) fn scales(drawing: &Drawing, size: f64) -> Scales {
         let own = drawing.forces.iter().filter(|force| force.kind == kind).filter_map(|force| force.turning);
         own.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
-    Scales { force: KINDS.map(|(kind, ..)| asked(kind).unwrap_or_else(|| suits(kind))), torque: KINDS.map(|(kind, ..)| torque(kind)) }
+    let force = KINDS.map(|(kind, ..)| asked(kind).unwrap_or_else(|| suits(kind)));
+    Scales { force, torque: KINDS.map(|(kind, ..)| torque(kind)), of_motion: false }
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a number.
@@ -164,14 +169,16 @@ fn turned(signs: Signs, at: Point, [u, v]: [Point; 2], radius: f64, sense: f64) 
     line(-half).chain(head).chain(line(half).rev()).collect()
 }
 
-/// A value in the unit that is asked for, else in SI, from a thousand on in the larger of two units.
+/// A value in the unit that is asked for, else in SI, from a thousand on in the larger of two units; below a million without exponent.
 fn told(value: f64, asked: Option<&ShownIn>, [unit, larger]: [&str; 2], digits: usize) -> String {
     let (size, unit) = match asked {
         Some(asked) => (asked.size, pretty(&asked.unit)),
         None if value >= 1e3 => (1e3, larger.into()),
         None => (1.0, unit.into()),
     };
-    format!("{} {unit}", significant(value / size, digits))
+    let whole = (1..6).find(|digits| value / size < 10f64.powi(*digits)).map_or(0, |digits| digits as usize);
+    let rounded: f64 = significant(value / size, digits).parse().unwrap_or(value / size);
+    format!("{} {unit}", significant(rounded, digits.max(whole + 1)))
 }
 
 /// Tells the scale of each kind at the foot of a picture, from `left` on.
@@ -197,18 +204,20 @@ pub(super) fn legend(drawing: &Drawing, pixels: f64, scales: Scales, scene: &mut
         }
         x = to + 16.0 + font::width(&text, letters) + 30.0;
     }
-    // as long as there is room for them beside the axes of space, else together in a line above
+    // as long as there is room for them beside the axes of space, else together in a line above, from the left margin on if need be
     let worded = |(kind, _, name): (ForceKind, &str, &str)| {
         let most = told(scales.torque[kind as usize], drawing.torque.as_ref(), ["N m", "kN m"], 3);
-        (kind, [format!("{name}: at most {most}"), format!("{name} to {most}")])
+        let whose = if scales.of_motion { "at most" } else { "largest here" };
+        (kind, [format!("{name}: {whose} {most}"), format!("{name} to {most}")])
     };
     let all: Vec<_> = KINDS.into_iter().filter(|(kind, ..)| scales.torque[*kind as usize] > 0.0).map(worded).collect();
     let width = |form: usize| all.iter().map(|(_, texts)| 2.0 * TURNED + 42.0 + font::width(&texts[form], letters)).sum::<f64>() - 30.0;
     let beside = [0, 1].into_iter().find(|form| x + width(*form) <= room);
+    let form = beside.unwrap_or(if width(0) <= room - MARGIN { 0 } else { 1 });
     let level = if beside.is_some() { y } else { y - 2.5 * TURNED };
-    let mut from = if beside.is_some() { x } else { (room - width(0)).max(left) };
+    let mut from = if beside.is_some() { x } else { (room - width(form)).min(left).max(MARGIN) };
     for (kind, texts) in &all {
-        from = turning(scene, *kind, &texts[beside.unwrap_or(0)], [from, level], letters) + 30.0;
+        from = turning(scene, *kind, &texts[form], [from, level], letters) + 30.0;
     }
 }
 
@@ -245,7 +254,7 @@ mod tests {
         // about an axis in the picture's plane: a line across it, with a head
         let seen = |across: [[f64; 2]; 2], turning: f64| {
             let force = Force { turning: Some(turning), across, ..Force::default() };
-            outline(&force, Signs { size: 1.0 }, Scales { force: [1.0; 2], torque: [4.0; 2] }, [[0.0; 2]; 2])
+            outline(&force, Signs { size: 1.0 }, Scales { force: [1.0; 2], torque: [4.0; 2], of_motion: false }, [[0.0; 2]; 2])
         };
         let span = |points: &[Point], i: usize| points.iter().fold(0.0_f64, |most, p| most.max(p[i].abs()));
         let (flat, round) = (seen([[1.0, 0.0], [0.0; 2]], 4.0), seen([[1.0, 0.0], [0.0, 1.0]], 4.0));
@@ -304,6 +313,6 @@ mod tests {
         drawing.forces[1].scale = Some(50.0);
         assert_eq!(scales(&drawing, 2.0).force, [10.0, 50.0]);
         assert_eq!(tips(&drawing, scales(&drawing, 2.0)).last(), Some([8.0, 6.0]));
-        assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: [0.0; 2] });
+        assert_eq!(scales(&Drawing::default(), 1.0), Scales { force: [1.0; 2], torque: [0.0; 2], of_motion: false });
     }
 }

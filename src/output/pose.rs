@@ -130,6 +130,8 @@ pub enum SymbolKind {
     Slot,
     /// Two circles, one in the other.
     Ball,
+    /// Two crossed hinges: a circle with a cross of their axes.
+    Cross,
     /// A small square: rigid.
     Weld,
 }

@@ -248,6 +248,14 @@ impl Signs {
                 scene.circle(placement.at, radius + 2.0 * self.size, Some(looks.fill), edge);
                 scene.circle(placement.at, radius - 2.5 * self.size, Some(looks.edge), None);
             }
+            SymbolKind::Cross => {
+                scene.circle(placement.at, radius + 2.0 * self.size, Some(looks.fill), edge);
+                for [dx, dy] in placement.across {
+                    let end = |s: f64| [placement.at[0] + s * dx, placement.at[1] + s * dy];
+                    let reach = 2.2 * radius;
+                    scene.line(vec![end(-reach), end(reach)], Stroke::solid(looks.edge, self.pen(3.0)));
+                }
+            }
             SymbolKind::Slot => scene.circle(placement.at, 6.5 * self.size, Some(looks.edge), None),
             // Its box is drawn below the bodies.
             SymbolKind::Slide => {}

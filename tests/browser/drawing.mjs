@@ -99,7 +99,7 @@ export async function the_largest_torque_of_the_loads_is_told(open) {
     return (await tab.evaluate(() => grashof.scales())).map(({ kind, text }) => [kind, text]);
   };
   const { tab } = await open('winch');
-  assert.deepEqual((await texts(tab))[1], ['torques', 'at most 1 N m']);
+  assert.deepEqual((await texts(tab))[1], ['torques', 'torques: at most 1 N m']);
   await tab.getByRole('checkbox', { name: 'loads' }).uncheck();
   assert.deepEqual((await texts(tab)).map(([kind]) => kind), ['reactions']);
   const { tab: pushed } = await open('pushed');
@@ -111,7 +111,7 @@ export async function the_largest_moment_of_a_joint_is_told(open) {
   await seen(tab);
   const told = await tab.evaluate(() => grashof.scales());
   assert.deepEqual(told.map(({ kind }) => kind), ['reactions', 'moments']);
-  assert.equal(told[1].text, 'at most 100 N m');
+  assert.equal(told[1].text, 'moments: at most 100 N m');
 }
 
 export async function modes_are_chosen_by_their_frequencies(open) {

@@ -276,7 +276,7 @@ export async function paths_lie_over_bodies(open) {
 const told = async (tab) => {
   await picture(tab);
   return new Map((await tab.evaluate(() => grashof.scales())).filter(({ kind }) => kind !== 'torques').map(({ kind, text, length }) => {
-    const [, number, prefix, unit] = /^= ([\d.]+) ([km]?)(N|m\/s|m\/s²)(?: without ropes and teeth)?$/.exec(text) ?? assert.fail(text);
+    const [, number, prefix, unit] = /^\w+: ([\d.]+) ([km]?)(N|m\/s|m\/s²)(?: without ropes and teeth)?$/.exec(text) ?? assert.fail(text);
     assert.match(number, /^(0\.0*)?[125]0*$/);
     assert.ok(length > 20 && length <= 60.001, `${kind}: ${length} pixels`);
     return [kind, { unit, pixel: (Number(number) * ({ k: 1e3, m: 1e-3 }[prefix] ?? 1)) / length }];

@@ -31,7 +31,7 @@ function told(kind: Kind, pixels: number, arrows: Arrows): Told {
   // forces from 1 kN on have that unit, as in the figures of the program
   const { unit: name, factor } = scaled(unit, unit === 'N' && value >= 1e3 ? Math.max(value, 1e4) : value);
   const without = kind === 'reactions' && arrows.geared() ? ' without ropes and teeth' : '';
-  return { kind, text: `= ${digits(value * factor, 3)} ${pretty(name)}${without}`, length: value * size * pixels };
+  return { kind, text: `${kind}: ${digits(value * factor, 3)} ${pretty(name)}${without}`, length: value * size * pixels };
 }
 
 /** The largest torque of a kind, if there is one. */
@@ -43,7 +43,7 @@ function turning(arrows: Arrows, of: Kind): Told[] {
   if (!(most > 0)) return [];
   // as forces
   const kilo = unit === 'N m' && most >= 1e3;
-  return [{ kind, text: `at most ${digits(most / (kilo ? 1e3 : 1), 3)} ${kilo ? 'k' : ''}${pretty(unit)}`, length: ROUND }];
+  return [{ kind, text: `${kind}: at most ${digits(most / (kilo ? 1e3 : 1), 3)} ${kilo ? 'k' : ''}${pretty(unit)}`, length: ROUND }];
 }
 
 /** Those that are shown, from the right corner at the foot to `left`, each with its left end and foot, in rows one above the other. */

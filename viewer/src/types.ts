@@ -171,6 +171,8 @@ export interface Joint {
   /** Whether the columns of its force are those on the ground. */
   on_ground: boolean;
   axis: number[];
+  /** Of a universal joint its axis in the second body. */
+  second?: number[];
   stroke: [number, number] | null;
   /** Of a slide the places of its stops along the axis from a. */
   stops: [Num, Num];

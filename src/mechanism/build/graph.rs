@@ -42,6 +42,7 @@ impl<G: Space> Builder<'_, G> {
                 a: self.at(joint.a),
                 b: self.at(joint.b),
                 axis: shape.triad[if self.planar { 0 } else { 2 }],
+                second: matches!(shape.kind, JointKind::Universal { .. }).then_some(shape.second),
                 zero: shape.zero,
                 tree: None,
                 slots: vec![],

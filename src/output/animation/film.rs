@@ -16,6 +16,8 @@ const LOOKED_AT: usize = 240;
 /// Places along a path, at least.
 const ALONG: usize = 360;
 const LETTERS: f64 = 20.0;
+/// Base line of what is told of a picture, below its title, pixels.
+const READING: f64 = 66.0;
 const PATH: f64 = 2.4;
 const TIP: f64 = 4.5;
 
@@ -60,7 +62,8 @@ impl<'a> Film<'a> {
             traces: seen.iter().map(|(trace, _)| path(trace)).collect(),
             ..posed::at_all(scene, &some)
         };
-        let plan = plan(&whole);
+        let mut plan = plan(&whole);
+        plan.forces.of_motion = true;
         let mut sheet = frame(&whole, &plan);
         margin(&whole, &plan, &mut sheet);
         let trail = |(index, trace): (usize, &Trace)| Trail {
@@ -89,7 +92,7 @@ impl<'a> Film<'a> {
         position(&posed::at(self.scene, x), &self.plan)
     }
 
-    /// What is over the sheet in a picture: the mechanism, the paths up to there, the time.
+    /// What is over the sheet in a picture: the mechanism, the paths up to there, the time or what stands for it.
     pub(super) fn picture(&self, index: usize) -> Vec<Item> {
         let mut over = Sheet { items: self.mechanism(self.shot.at[index]), ..Sheet::default() };
         for trail in &self.trails {
@@ -99,20 +102,14 @@ impl<'a> Film<'a> {
             over.line(points, Stroke::solid(trail.color, PATH));
             tip.iter().for_each(|tip| over.circle(*tip, TIP, Some(trail.color), None));
         }
-        if let Some(time) = &self.shot.time {
-            over.items.push(self.clock(time[index], time.last().copied().unwrap_or_default()));
-        }
+        over.items.extend(self.shot.readings.get(index).map(|text| self.reading(text)));
         over.items
     }
 
-    /// A time below the mechanism, with the digits that those up to the last one need, s.
-    pub(super) fn clock(&self, time: f64, last: f64) -> Item {
-        let digits = (2.0 - last.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+    /// What is told of a picture, below the title.
+    pub(super) fn reading(&self, text: &str) -> Item {
         let mut over = Sheet::default();
-        // in the line of the scale, or above it where that tells the scales of forces
-        let foot = if self.scene.arrows.is_empty() { 19.0 } else { 56.0 };
-        let at = [0.5 * self.sheet.width, self.sheet.height - foot];
-        over.text(at, format!("{time:.digits$} s"), LETTERS, Anchor::Middle);
+        over.text([0.5 * self.sheet.width, READING], text.to_owned(), LETTERS, Anchor::Middle);
         over.items.remove(0)
     }
 }

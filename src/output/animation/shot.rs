@@ -1,5 +1,6 @@
 //! When the pictures of a motion are taken.
 
+use crate::output::units::pretty;
 use crate::results::{Results, Scene};
 
 /// Seconds that a motion without time takes.
@@ -32,8 +33,8 @@ pub struct ShotOptions {
 pub struct Shot {
     /// The independent variable in each picture. In a motion that returns and repeats the end is left out: it is the first again.
     pub at: Vec<f64>,
-    /// The time of the motion in each picture, s, if it has one.
-    pub time: Option<Vec<f64>>,
+    /// What each picture is told to be of: the time of the motion, or where it has none its independent variable; empty of modes.
+    pub readings: Vec<String>,
     /// Pictures a second.
     pub rate: f64,
     /// How long all of it is shown, s: whole pictures.
@@ -45,6 +46,7 @@ pub struct Shot {
     /// Even steps from its beginning to its end.
     pub(super) steps: usize,
     clock: Clock,
+    scale: Option<Scale>,
 }
 
 impl Shot {
@@ -66,9 +68,11 @@ impl Shot {
         let steps = steps as usize;
         let count = if scene.frames.closed && asked.repeats { steps } else { steps + 1 };
         let parts: Vec<f64> = (0..count).map(|k| k as f64 / steps as f64).collect();
-        let time = clock.real.then(|| parts.iter().map(|part| clock.time(*part)).collect());
+        let scale = Scale::of(results, &clock);
+        let readings = scale.iter().flat_map(|scale| parts.iter().map(|part| scale.reading(&clock, *part))).collect();
         let at = parts.iter().map(|part| clock.place(*part)).collect();
-        Ok(Self { at, time, rate: asked.rate, seconds: steps as f64 / asked.rate, exact: seconds, repeats: asked.repeats, steps, clock })
+        let (rate, seconds, exact) = (asked.rate, steps as f64 / asked.rate, seconds);
+        Ok(Self { at, readings, rate, seconds, exact, repeats: asked.repeats, steps, clock, scale })
     }
 
     /// Whether its time is that of the motion; else all of it is gone through evenly.
@@ -91,9 +95,10 @@ impl Shot {
         out
     }
 
-    /// The time of the motion at so many even steps, s, if it has one; shape steps + 1.
-    pub(super) fn times(&self, steps: usize) -> Option<Vec<f64>> {
-        self.clock.real.then(|| (0..=steps).map(|k| self.clock.time(k as f64 / steps as f64)).collect())
+    /// What so many even steps are told to be of; shape steps + 1, or none.
+    pub(super) fn readings(&self, steps: usize) -> Vec<String> {
+        let at = |scale| (0..=steps).map(move |k| Scale::reading(scale, &self.clock, k as f64 / steps as f64));
+        self.scale.iter().flat_map(at).collect()
     }
 
     /// The independent variable at so many even steps, from the beginning to the end; shape steps + 1.
@@ -149,6 +154,39 @@ impl Clock {
     }
 }
 
+/// How the place in a motion is told.
+#[derive(Clone, Debug)]
+struct Scale {
+    /// The independent variable, `crank.angle = `; nothing before a time.
+    head: String,
+    unit: String,
+    /// Its unit in SI.
+    size: f64,
+    /// Digits behind the point: those that the largest value needs.
+    digits: usize,
+}
+
+impl Scale {
+    /// That of the time of a motion, else of its independent variable; none of modes.
+    fn of(results: &Results, clock: &Clock) -> Option<Self> {
+        let independent = &results.independent;
+        let (head, (unit, size)) = match clock.real {
+            true => (String::new(), ("s", 1.0)),
+            false if results.kind == "modes" || independent.name.is_empty() => return None,
+            false => (format!("{} = ", independent.name), independent.shown()),
+        };
+        let ends = if clock.real { &clock.time } else { &clock.at };
+        let largest = ends.iter().fold(0.0, |most, x| f64::max(most, (x / size).abs()));
+        let digits = (2.0 - largest.max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+        Some(Self { head, unit: pretty(unit), size, digits })
+    }
+
+    fn reading(&self, clock: &Clock, part: f64) -> String {
+        let value = if clock.real { clock.time(part) } else { clock.place(part) };
+        format!("{}{:.*} {}", self.head, self.digits, value / self.size, self.unit).trim_end().to_owned()
+    }
+}
+
 /// Rows at which time rises and the independent variable goes on in one sense; none if these are less than half of them.
 fn nodes(at: &[f64], time: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
     let sense = if at.last() < at.first() { -1.0 } else { 1.0 };
@@ -193,7 +231,7 @@ mod tests {
         let (again, once) = (shot(&turn, Pace::Duration(2.0), true), shot(&turn, Pace::Duration(2.0), false));
         assert_eq!((again.at.len(), once.at.len()), (20, 21));
         assert_eq!((again.at[10], once.at[20]), (3.0, 6.0));
-        assert!(again.time.is_none());
+        assert_eq!(again.readings.first().map(String::as_str), Some("theta = 0.00 rad"));
     }
 
     #[test]
@@ -202,7 +240,7 @@ mod tests {
         let turn = motion(&[0.0, 3.0, 6.0], Some(&[0.0, 1.0, 4.0]), true);
         let shown = shot(&turn, Pace::Speed(2.0), false);
         assert_eq!((shown.seconds, shown.at.len()), (2.0, 21));
-        assert_eq!(shown.time.as_ref().map(|time| (time[0], time[20])), Some((0.0, 4.0)));
+        assert_eq!([0, 20].map(|k| shown.readings[k].as_str()), ["0.00 s", "4.00 s"]);
         assert!((shown.at[5] - 3.0).abs() < 1e-12 && (shown.at[10] - 4.0).abs() < 1e-12);
     }
 

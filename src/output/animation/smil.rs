@@ -36,7 +36,7 @@ pub fn moving_svg(film: &Film<'_>, width: usize) -> String {
         None => flip_book(&mut out, film, &timing),
     }
     film.trails.iter().for_each(|trail| grow(&mut out, trail, &timing));
-    clock(&mut out, film, &timing);
+    readings(&mut out, film, &timing);
     out.push_str("</svg>\n");
     out
 }
@@ -90,14 +90,12 @@ fn flip_book(out: &mut String, film: &Film<'_>, timing: &str) {
     }
 }
 
-/// The time, in steps that can be read.
-fn clock(out: &mut String, film: &Film<'_>, timing: &str) {
+/// The time or what stands for it, in steps that can be read.
+fn readings(out: &mut String, film: &Film<'_>, timing: &str) {
     let steps = (film.shot().seconds * READ.min(film.shot().rate)).round().max(1.0) as usize;
-    let Some(times) = film.shot().times(steps) else { return };
-    let last = times.last().copied().unwrap_or_default();
     let count = if film.count() == film.shot().steps { steps } else { steps + 1 };
-    for (k, time) in times.iter().take(count).enumerate() {
-        flip(out, &[film.clock(*time, last)], [k, count], timing);
+    for (k, text) in film.shot().readings(steps).iter().take(count).enumerate() {
+        flip(out, &[film.reading(text)], [k, count], timing);
     }
 }
 

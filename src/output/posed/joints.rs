@@ -35,6 +35,11 @@ impl Posed<'_> {
         let a = self.scene.world(poses, &joint.a);
         let on_way = |s: f64| self.view.flat(std::array::from_fn(|i| a[i] + s * axis[i]));
         let about = if planar { [0.0, 0.0, 1.0] } else { axis };
+        let across = match kind {
+            SymbolKind::Cross => [axis, self.scene.direction(poses, joint.b.body, &joint.second)],
+            // the middle of the arrow of what drives
+            _ => self.view.facing(about, 0.75),
+        };
         let upper = kind == SymbolKind::Slide && planar && self.guided_above(joint, axis);
         let reach = if kind == SymbolKind::Slide { self.extent_along(poses, joint, axis) } else { [0.0; 2] };
         let beyond = std::array::from_fn(|end| if joint.stops[end].is_some() { reach[end] } else { 0.0 });
@@ -44,8 +49,7 @@ impl Posed<'_> {
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
             way: joint.stroke.filter(|_| slides).map(|[low, high]| [on_way(low - beyond[0]), on_way(high + beyond[1])]),
             carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
-            // the middle of the arrow of what drives
-            across: self.view.facing(about, 0.75).map(|e| self.view.flat(e)),
+            across: across.map(|e| self.view.flat(e)),
             clear: if slides && planar { self.clear(poses, joint, axis, upper) } else { 0.0 },
             upper,
             sense: joint.sense,
@@ -222,7 +226,8 @@ fn symbol(kind: &str) -> Option<SymbolKind> {
     match kind {
         "slider" | "cylindrical" | "planar" | "screw" => Some(SymbolKind::Slide),
         "pin-in-slot" => Some(SymbolKind::Slot),
-        "spherical" | "universal" => Some(SymbolKind::Ball),
+        "spherical" => Some(SymbolKind::Ball),
+        "universal" => Some(SymbolKind::Cross),
         "fixed" => Some(SymbolKind::Weld),
         "free" | "distance" | "point" => None,
         _ => Some(SymbolKind::Hinge),

@@ -212,6 +212,11 @@ fn drawing(scene: &Scene) -> Value {
             link.remove("along");
         }
     }
+    for (joint, of) in value["joints"].as_array_mut().into_iter().flatten().zip(&scene.joints) {
+        if let Some(joint) = joint.as_object_mut().filter(|_| of.second.is_empty()) {
+            joint.remove("second");
+        }
+    }
     signs(&mut value, scene);
     if scene.dimensions == 3 {
         let [up, first, second] = level(scene.up);

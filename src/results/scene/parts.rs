@@ -40,6 +40,9 @@ pub struct Joint {
     pub on_ground: bool,
     /// Unit direction of its axis or slide in the first body.
     pub axis: Vec<f64>,
+    /// Of a universal joint: unit direction of its other axis, which is in the second body; else empty.
+    #[serde(default)]
+    pub second: Vec<f64>,
     /// Of a slide: its positions along the axis over the whole motion, widened to its stops, m.
     pub stroke: Option<[f64; 2]>,
     /// Ends of its coordinate where it has stops, measured as the place of b from a along the axis, m, or as drawn, rad.

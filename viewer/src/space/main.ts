@@ -262,7 +262,7 @@ class Space implements Renderer {
       const colors = (body: number) => ({ body: bodyInks(scene.bodies[body]!.color, inks).fill, mass: massInk(inks) });
       const all = bodies(scene, this.size, colors);
       const pins = scene.joints.map((joint) => this.pin(joint, inks));
-      scene.joints.forEach((joint) => all[joint.b.body]!.push(...this.slideBox(joint, inks)));
+      scene.joints.forEach((joint) => all[joint.b.body]!.push(...this.slideBox(joint, inks), ...this.otherArm(joint, inks)));
       this.faces = { of: inks, all, pins };
     }
     return this.faces;
@@ -274,8 +274,9 @@ class Space implements Renderer {
     const at: Vector = [a.at[0] ?? 0, a.at[1] ?? 0, a.at[2] ?? 0];
     const color = driven ? inks.accent : mixed(inks.ink, inks.paper, 0.35);
     const r = 0.017 * this.size;
-    if (kind === 'spherical' || kind === 'universal' || axis.length < 3) return ball(at, 1.35 * r, color);
+    if (kind === 'spherical' || axis.length < 3) return ball(at, 1.35 * r, color);
     const along = unit([axis[0]!, axis[1]!, axis[2]!]);
+    if (kind === 'universal') return this.arm(at, along, color);
     // a thread: rings on a core
     if (kind === 'screw') return [...tube(add(at, along, -3 * r), add(at, along, 3 * r), 0.75 * r, 0.75 * r, 12, color),
       ...[-2.2, -1.1, 0, 1.1, 2.2].flatMap((k) => tube(add(at, along, (k - 0.25) * r), add(at, along, (k + 0.25) * r), 1.3 * r, 1.3 * r, 12, color))];
@@ -284,6 +285,19 @@ class Space implements Renderer {
     const [low, high] = stroke ?? [0, 0];
     const own = a.body === 0 ? mixed(inks.paper, inks.faint, 0.7) : bodyInks(this.motion.scene.bodies[a.body]!.color, inks).edge;
     return tube(add(at, along, low - 2 * r), add(at, along, high + 2 * r), 0.35 * r, 0.35 * r, 10, own);
+  }
+
+  /** One of the two arms of the cross in a universal joint. */
+  private arm(at: Vector, along: Vector, color: string): Face[] {
+    const r = 0.017 * this.size;
+    return tube(add(at, along, -2.2 * r), add(at, along, 2.2 * r), 0.6 * r, 0.6 * r, 12, color);
+  }
+
+  /** The arm that the second body holds. */
+  private otherArm({ kind, b, second, driven }: Joint, inks: Inks): Face[] {
+    if (kind !== 'universal' || second?.length !== 3) return [];
+    const color = driven ? inks.accent : mixed(inks.ink, inks.paper, 0.35);
+    return this.arm([b.at[0] ?? 0, b.at[1] ?? 0, b.at[2] ?? 0], unit([second[0]!, second[1]!, second[2]!]), color);
   }
 
   /** The box of a slide on its guide. */

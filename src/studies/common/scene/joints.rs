@@ -26,6 +26,7 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 b: place::<G>(joint.b),
                 on_ground: on_ground(mechanism, index),
                 axis: joint.axis[..G::VECTOR].to_vec(),
+                second: joint.second.map_or_else(Vec::new, Vec::from),
                 stroke: None,
                 stops,
                 cut: joint.tree.is_none(),
