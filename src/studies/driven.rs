@@ -197,6 +197,7 @@ fn observe<G: Space<S = f64>>(
     findings.extend(jumps(case, &mut motion, &name, unit));
     findings.extend(backwards(case, &motion, &name, unit));
     findings.extend(stops::dwells(study, variable, &mut motion, &resolved));
+    findings.extend(stops::carries(study, variable, &mut motion, &resolved, start.size));
 
     let complete = motion.path.dead == [None, None] && motion.path.jump.is_none();
     let stopped = (!complete && undefined.is_none()).then(|| {

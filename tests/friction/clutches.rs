@@ -244,6 +244,34 @@ studies: { run: { dynamics: { until: 7 s, every: 10 ms }, columns: [time, A.omeg
 }
 
 #[test]
+fn a_one_way_clutch_whose_sides_drivers_keep_at_one_rate_may_carry_anything() {
+    let text = |law: &str| {
+        format!(
+            "grashof: 1
+name: shafts
+space: planar
+gravity: [0, -9.81]
+ground: {{ B: [3, 0] }}
+bodies: {{ a: {{ bar: {{ length: 1, mass: 2 }} }}, b: {{ bar: {{ length: 0.8, mass: 1 }} }} }}
+joints: {{ A: {{ revolute: [ground, a.start] }}, B: {{ revolute: [ground.B, b.start] }} }}
+clutches: {{ c: {{ between: [A, B], one_way: true }} }}
+start: {{ A.angle: 0 rad, B.angle: 0 rad }}
+drivers: {{ dA: {{ joint: A, angle: 2 rad/s*t }}, dB: {{ joint: B, angle: {law} }} }}
+studies: {{ run: {{ inverse: {{ over: 2 s, samples: 10 }}, columns: [c.torque, dA.torque] }} }}
+"
+        )
+    };
+    let told = |law: &str| {
+        let finding = done(&text(law), "run").findings.iter().find(|f| f.code == "friction-not-unique").map(|f| f.message.clone());
+        finding.unwrap_or_default()
+    };
+    assert_eq!(told("\"2 rad/s*t + 0.1 rad/s^2*t^2\""), "");
+    assert!(told("2 rad/s*t").starts_with("from time = 0 s to 2 s the drivers keep both sides"), "{}", told("2 rad/s*t"));
+    let half = told("\"if(t < 1 s, 2 rad/s*t, 2 rad/s*t + 0.1 rad/s^2*(t - 1 s)^2)\"");
+    assert!(half.starts_with("from time = 0 s to 1 s the drivers"), "{half}");
+}
+
+#[test]
 fn a_clutch_says_what_is_wrong_with_it() {
     let text = "grashof: 1
 name: wheel

@@ -111,6 +111,46 @@ pub(crate) fn dwells<G: Space<S = f64>>(
     findings
 }
 
+/// Where the drivers keep both sides of a one-way clutch at one rate, so that it may carry any force in its sense: nothing tells which.
+pub(crate) fn carries<G: Space<S = f64>>(
+    study: &Study,
+    variable: Variable<'_>,
+    motion: &mut Motion<'_, G>,
+    resolved: &Resolved,
+    size: f64,
+) -> Vec<Finding> {
+    let mechanism = motion.driven.dynamics.mechanism;
+    let mut findings = Vec::new();
+    if !matches!(study.kind, Kind::Inverse(_)) {
+        return findings;
+    }
+    let known = resolved.samples();
+    let first = motion.columns() - mechanism.one_way().count();
+    let speed = fastest(motion);
+    for (k, clutch) in mechanism.one_way().enumerate() {
+        let still = |rate: f64| rate.abs() <= PASSED * clutch.unit(size) * speed;
+        let rests = |ends: &[(f64, f64)], motion: &mut Motion<'_, G>| {
+            let [(from, before), (to, behind)] = ends else { return false };
+            still(*before) && still(*behind) && from < to && still(rate_at(motion, 0.5 * (from + to), clutch))
+        };
+        let rates: Vec<(f64, f64)> = known.places.iter().copied().zip(known.column(first + k).iter().copied()).collect();
+        let Some(begin) = rates.windows(2).position(|ends| rests(ends, motion)) else { continue };
+        let more = rates[begin + 1..].windows(2).take_while(|ends| rests(ends, motion)).count();
+        let [from, to] = [begin, begin + 1 + more].map(|at| motion.clock.value(rates[at].0));
+        findings.push(Finding {
+            code: "friction-not-unique".into(),
+            message: format!(
+                "from {} to {} the drivers keep both sides of {} at one rate, and it may carry anything in its sense: forces are given with 0 in its place",
+                variable.at(from),
+                variable.told(to),
+                clutch.name
+            ),
+            path: clutch.place.clone(),
+        });
+    }
+    findings
+}
+
 /// Contacts at rest whose motion other contacts, stops or drivers hold as well: what each of them carries is open.
 pub(crate) fn shared_by_contacts<G: Space<S = f64>>(mechanism: &Mechanism<G>, open: &[usize]) -> Vec<Finding> {
     let contacts = mechanism.contacts.iter().enumerate().filter(|(c, _)| open.contains(c));
@@ -215,7 +255,7 @@ pub(crate) fn barrier<G: Space<S = f64>>(
         );
         offer(at, message, "drive it less far, or give the stop a `stiffness`");
     }
-    let speed = motion.path.nodes.iter().map(|node| motion.driven.measure(&node.v)).fold(0.0, f64::max);
+    let speed = fastest(motion);
     for (k, (clutch, rate)) in mechanism.one_way().zip(rates).enumerate() {
         let back = |rate: f64| rate < -PASSED * clutch.unit(size) * speed;
         let Some(least) = rate.map(|e| e.min).filter(|least| back(least.value)) else { continue };
@@ -249,6 +289,11 @@ pub(crate) fn barrier<G: Space<S = f64>>(
         Some((Barrier { at, message }, help)) if at.abs() <= BEGUN * motion.clock.length => Err(Failure::numerical(message, help)),
         first => Ok(first.map(|(barrier, _)| barrier)),
     }
+}
+
+/// The largest velocity of a motion, in units of angles and of the mechanism's size.
+fn fastest<G: Space<S = f64>>(motion: &Motion<'_, G>) -> f64 {
+    motion.path.nodes.iter().map(|node| motion.driven.measure(&node.v)).fold(0.0, f64::max)
 }
 
 /// The known place before the nearest of some on the way from the start, and that one: those ahead count first.
