@@ -32,19 +32,28 @@ pub(super) fn idle<'a>(file: &'a Mapping, below: &[&'a Mapping]) -> Vec<Fault> {
 pub(super) fn without_effect(file: &Mapping) -> Vec<String> {
     let own = file.get("parameters").and_then(Value::as_mapping).map(keys).unwrap_or_default();
     let mut unnamed: HashSet<&str> = own.iter().map(String::as_str).collect();
-    file.iter().filter(|(key, _)| !["name", "about"].iter().any(|text| *key == text)).for_each(|(_, value)| strike(value, &mut unnamed));
+    let telling = |key: &&Value| !["name", "about"].iter().any(|text| *key == text);
+    file.iter().filter(|(key, _)| telling(key)).for_each(|(_, value)| strike(value, &mut unnamed, false));
     own.iter().filter(|name| unnamed.contains(name.as_str())).cloned().collect()
 }
 
-/// Takes the words in the texts of a value out of a set.
-fn strike(value: &Value, words: &mut HashSet<&str>) {
+/// Takes the words in the texts of a value out of a set, and in its keys that are expressions; keys that are a name alone set what they
+/// name, and count where `set` does, but for those of `parameters`.
+fn strike(value: &Value, words: &mut HashSet<&str>, set: bool) {
+    let of_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     match value {
-        Value::String(text) if !words.is_empty() => text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').for_each(|word| {
+        Value::String(text) if !words.is_empty() => text.split(|c| !of_word(c)).for_each(|word| {
             words.remove(word);
         }),
-        Value::Sequence(items) => items.iter().for_each(|item| strike(item, words)),
-        Value::Mapping(map) => map.iter().for_each(|(_, value)| strike(value, words)),
-        Value::Tagged(tagged) => strike(&tagged.value, words),
+        Value::Sequence(items) => items.iter().for_each(|item| strike(item, words, set)),
+        Value::Mapping(map) => map.iter().for_each(|(key, value)| {
+            let name = key.as_str().unwrap_or_default();
+            if set || !name.chars().all(of_word) {
+                strike(key, words, set);
+            }
+            strike(value, words, set && name != "parameters");
+        }),
+        Value::Tagged(tagged) => strike(&tagged.value, words, set),
         _ => {}
     }
 }
@@ -90,30 +99,19 @@ fn keys(map: &Mapping) -> Vec<String> {
 fn unused(patch: &Mapping, head: &str, file: &Mapping, below: &[&Mapping]) -> Vec<Fault> {
     let parameters = |map: &Mapping| map.get("parameters").and_then(Value::as_mapping).map(keys).unwrap_or_default();
     let known: Vec<String> = std::iter::once(file).chain(below.iter().copied()).flat_map(parameters).collect();
-    let new = parameters(patch).into_iter().filter(|name| !known.contains(name));
-    let unused = new.filter(|name| !file.iter().any(|(_, value)| names(value, name, false)));
-    unused
+    let new: Vec<String> = parameters(patch).into_iter().filter(|name| !known.contains(name)).collect();
+    let mut unnamed: HashSet<&str> = new.iter().map(String::as_str).collect();
+    file.iter().for_each(|(_, value)| strike(value, &mut unnamed, true));
+    new.iter()
+        .filter(|name| unnamed.contains(name.as_str()))
         .map(|name| {
-            let near = suggest::nearest(&name, known.iter().map(String::as_str));
+            let near = suggest::nearest(name, known.iter().map(String::as_str));
             let help = near.map_or_else(|| "use it in an expression, or remove it".to_owned(), |near| format!("did you mean `{near}`?"));
             let message = format!("nothing uses the parameter `{name}`");
             let place = format!("{head}parameters.{name}");
             Fault::new("unused-parameter", place, message, "a parameter that an expression of the model names").at(Spot::Key).help(help)
         })
         .collect()
-}
-
-/// Whether a word stands in the texts of a value, or as a key but for those of `parameters`.
-fn names(value: &Value, word: &str, defines: bool) -> bool {
-    match value {
-        Value::String(text) => text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|part| part == word),
-        Value::Sequence(items) => items.iter().any(|item| names(item, word, false)),
-        Value::Mapping(map) => map.iter().any(|(key, value)| {
-            let key = key.as_str().unwrap_or_default();
-            !defines && key == word || names(value, word, key == "parameters")
-        }),
-        _ => false,
-    }
 }
 
 #[cfg(test)]
@@ -147,8 +145,8 @@ mod tests {
 
     #[test]
     fn parameters_of_the_file_without_effect_are_told() {
-        let file =
-            "{about: of lost, parameters: {k: 1, c: k/2, lost: 3}, springs: {s: {stiffness: 2*c}}, studies: {s: {sweep: {lost: [1]}}}}";
+        let file = "{about: of lost, parameters: {k: 1, c: k/2, lost: 3, v: 1}, springs: {s: {stiffness: 2*c}}, \
+                    studies: {s: {sweep: {lost: [1]}, expect: {last(A.omega)-v: 0}}}}";
         let file: Mapping = serde_yaml::from_str(file).unwrap();
         assert_eq!(without_effect(&file), ["lost"]);
     }
@@ -158,5 +156,7 @@ mod tests {
         let file = "{parameters: {k: 1}, springs: {s: {stiffness: 2*k + c}}, studies: {s: {sweep: {n: [1]}}}, \
                     variants: {a: {parameters: {kk: 2, k: 3, c: 4, n: 5}}}}";
         assert_eq!(places(file, "{}"), [("variants.a.parameters.kk".to_owned(), Some("did you mean `k`?".to_owned()))]);
+        let expected = "{studies: {s: {expect: {last(A.omega)-v: 0}}}, variants: {a: {parameters: {v: 1}}}}";
+        assert_eq!(places(expected, "{}"), []);
     }
 }

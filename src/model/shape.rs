@@ -259,17 +259,18 @@ impl Shapes<'_> {
                 }
                 None => {
                     let near = suggest::nearest(key, table.fields.iter().map(|f| f.key));
-                    unknown.push(near.and_then(|near| table.field(near)).map(|f| f.key));
                     let here_is = |field: &Field| node.get(field.key).is_some();
-                    let elsewhere = near.is_none().then(|| misplaced::help(key, table, &here_is)).flatten();
-                    let placed = elsewhere.is_some();
+                    let elsewhere = misplaced::help(key, table, near.is_some(), &here_is);
+                    let near = near.filter(|_| elsewhere.is_none());
+                    unknown.push(near.and_then(|near| table.field(near)).map(|f| f.key));
+                    let is_strange = near.is_none() && elsewhere.is_none();
                     let own = || suggest::help(key, table.fields.iter().map(|f| f.key).filter(|k| near.is_none() || Some(*k) == near));
                     let help = elsewhere.or_else(own);
                     let expected = format!("a key of {}", table.what);
                     let fault = shapes.fault("unknown-key", &here, format!("unknown key `{}`", clip(key)), expected);
                     fault.spot = Spot::Key;
                     fault.help = help;
-                    if near.is_none() && !placed {
+                    if is_strange {
                         strange.get_or_insert(shapes.faults.len() - 1);
                     }
                 }
