@@ -175,3 +175,26 @@ studies: {{ it: {{ dynamics: {{ until: 3 s, integrator: {integrator} }}, scalars
         }
     }
 }
+
+/// A condition that a jump makes true and what the jump lets come to rest makes false again: neither is seen, and both belong to one event.
+#[test]
+fn what_comes_to_rest_takes_back_within_the_event() {
+    let text = "grashof: 1
+name: there and back
+space: planar
+gravity: none
+bodies: { b: { mass: 1 kg } }
+joints: { X: { slider: [ground, b.origin], axis: [1, 0] } }
+measures:
+  gate: if(sin(6 rad/m*X.position) > 0.4, 1, 0)
+  held: if(gate - if(gate == 1, 1, 0) > 0.5, 5, 2)
+loads: { push: { joint: X, force: held*1 N } }
+start: { X.position: 0 m, X.velocity: 0 m/s }
+studies: { it: { dynamics: { until: 1 s }, columns: [held], scalars: { v: last(X.velocity) } } }
+";
+    let outcome = study(text, "it", Coordinates::Joint);
+    assert!((outcome.scalars[0] - 2.0).abs() < 1e-9, "{:?}", outcome.scalars);
+    assert!(outcome.rows.iter().all(|row| row[0] == 2.0), "{:?}", outcome.rows);
+    // at asin(0.4)/6 and (π − asin(0.4))/6 m
+    assert_eq!(outcome.certificate.march.expect("a motion in time").counts.events, 2);
+}

@@ -89,3 +89,53 @@ fn a_driven_tilted_loop_asks_for_the_torque_of_the_plane() {
         }
     }
 }
+
+/// A slider-crank with friction at the rod's hinge and in the guide, in space turned by `angles`: its other hinges stand on the tree, so
+/// that the rows of one force differ in size.
+fn slider_crank(angles: [f64; 3]) -> String {
+    let list = |p: [f64; 3]| format!("[{}]", turned(p, angles).map(|x| format!("{x:?}")).join(", "));
+    let (to, end) = ([0.06, 0.08, 0.0], [0.06 + f64::sqrt(0.25 - 0.0064), 0.0, 0.0]);
+    let rod = [end[0] - to[0], -to[1], 0.0];
+    let half = |p: [f64; 3]| list(p.map(|x| x / 2.0));
+    let axis = list([0.0, 0.0, 1.0]);
+    format!(
+        "grashof: 1
+name: slider-crank with friction
+space: spatial
+gravity: {}
+ground: {{ O: [0, 0, 0], S: {} }}
+bodies:
+  crank: {{ mass: 1, com: {}, inertia: 0.002, points: {{ to: {} }} }}
+  rod: {{ mass: 2, com: {}, inertia: 0.04, points: {{ to: {} }} }}
+  block: {{ mass: 3, inertia: 0.01 }}
+joints:
+  O: {{ revolute: [ground.O, crank], axis: {axis} }}
+  B: {{ revolute: [crank.to, rod], axis: {axis}, friction: {{ coulomb: 0.3, radius: 2 cm }} }}
+  C: {{ revolute: [rod.to, block.origin], axis: {axis} }}
+  S: {{ slider: [ground.S, block.origin], axis: {}, friction: {{ coulomb: 0.1 }} }}
+start: {{ O.angle: 0 rad, O.omega: 6 rad/s }}
+studies:
+  it:
+    dynamics: {{ until: 0.5 s, every: 0.25 s, tolerance: 1e-11 }}
+    columns: [O.angle, O.omega, B.friction, S.friction]
+",
+        list([3.0, -9.81, 0.0]),
+        list(end),
+        half(to),
+        list(to),
+        half(rod),
+        list(rod),
+        list([1.0, 0.0, 0.0]),
+    )
+}
+
+#[test]
+fn friction_does_not_know_how_axes_lie() {
+    let level = done(&slider_crank([0.0; 3]), "it");
+    for angles in [TILT, [-0.4, 0.9, 0.3]] {
+        let tilted = done(&slider_crank(angles), "it");
+        for (k, (found, right)) in last(&tilted).iter().zip(last(&level)).enumerate() {
+            close(&format!("column {k}, {angles:?}"), *found, *right, 1e-8 * right.abs().max(1.0));
+        }
+    }
+}
