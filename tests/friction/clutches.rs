@@ -245,7 +245,7 @@ studies: { run: { dynamics: { until: 7 s, every: 10 ms }, columns: [time, A.omeg
 
 #[test]
 fn a_one_way_clutch_whose_sides_drivers_keep_at_one_rate_may_carry_anything() {
-    let text = |law: &str| {
+    let text = |law: &str, kind: &str| {
         format!(
             "grashof: 1
 name: shafts
@@ -257,18 +257,23 @@ joints: {{ A: {{ revolute: [ground, a.start] }}, B: {{ revolute: [ground.B, b.st
 clutches: {{ c: {{ between: [A, B], one_way: true }} }}
 start: {{ A.angle: 0 rad, B.angle: 0 rad }}
 drivers: {{ dA: {{ joint: A, angle: 2 rad/s*t }}, dB: {{ joint: B, angle: {law} }} }}
-studies: {{ run: {{ inverse: {{ over: 2 s, samples: 10 }}, columns: [c.torque, dA.torque] }} }}
+studies: {{ run: {{ {kind}, columns: [c.torque, dA.torque] }} }}
 "
         )
     };
-    let told = |law: &str| {
-        let finding = done(&text(law), "run").findings.iter().find(|f| f.code == "friction-not-unique").map(|f| f.message.clone());
+    let told_by = |kind: &str, law: &str| {
+        let finding = done(&text(law, kind), "run").findings.iter().find(|f| f.code == "friction-not-unique").map(|f| f.message.clone());
         finding.unwrap_or_default()
     };
+    let told = |law: &str| told_by("inverse: { over: 2 s, samples: 10 }", law);
     assert_eq!(told("\"2 rad/s*t + 0.1 rad/s^2*t^2\""), "");
     assert!(told("2 rad/s*t").starts_with("from time = 0 s to 2 s the drivers keep both sides"), "{}", told("2 rad/s*t"));
     let half = told("\"if(t < 1 s, 2 rad/s*t, 2 rad/s*t + 0.1 rad/s^2*(t - 1 s)^2)\"");
     assert!(half.starts_with("from time = 0 s to 1 s the drivers"), "{half}");
+
+    let in_time = |law: &str| told_by("dynamics: { until: 2 s, every: 0.2 s }", law);
+    assert_eq!(in_time("\"2 rad/s*t + 0.1 rad/s^2*t^2\""), "");
+    assert!(in_time("2 rad/s*t").starts_with("while its sides go at one rate"), "{}", in_time("2 rad/s*t"));
 }
 
 #[test]

@@ -157,7 +157,8 @@ pub(crate) fn shared_by_contacts<G: Space<S = f64>>(mechanism: &Mechanism<G>, op
     let finding = |(_, contact): (usize, &Contact)| Finding {
         code: "friction-not-unique".into(),
         message: format!(
-            "while it sticks {} is not unique: drivers, a rigid stop or other friction hold the same motion; what is printed is 0 or one of the values, of a stop and of drivers the rest",
+            "while {} {} is not unique: drivers, a rigid stop or other friction hold the same motion; what is printed is 0 or one of the values, of a stop and of drivers the rest",
+            if contact.is_one_way() { "its sides go at one rate" } else { "it sticks" },
             contact.name
         ),
         path: contact.place.clone(),

@@ -189,6 +189,8 @@ where
                     out.senses[c] = found.spent[i];
                 }
                 (_, None, Place::Between) => out.held.push(c),
+                // what drivers keep at one rate may carry anything in its sense
+                (true, Some(0), _) => out.open.push(c),
                 (true, ..) | (_, None, Place::Idle) => {}
                 (_, Some(sense), _) => {
                     out.senses[c] = sense;
@@ -336,7 +338,8 @@ where
             let largest = now.iter().fold(slack, |m, x| m.max(x.abs()));
             let stays = last.len() == now.len() && now.iter().zip(&last).all(|(x, y)| (x - y).abs() <= SETTLED * largest);
             if stays || friction_by_reactions.is_empty() && resting.iter().all(|touching| !self.by_reactions(*touching)) {
-                let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely[i] * largest);
+                // by round-off of forces all moves, also where none of those that touch has a bound
+                let still = |i: usize| b[i].abs() <= NO_ACCELERATION * (size(i) + freely[i] * largest) + freely[i] * slack;
                 let determined = (0..n).map(|i| fixed[i].then(|| if still(i) { 0 } else { b[i].signum() as i32 })).collect();
                 let mut accelerations = free.a;
                 let all = friction_by_reactions
