@@ -231,7 +231,7 @@ mod tests {
         };
         let svg = svg(&figure);
         assert_eq!(lines(&svg).len(), 2);
-        assert!(svg.contains(">theta in deg<") && svg.contains(">torque in N m<"));
+        assert!(svg.contains(">theta in deg<") && svg.contains(">torque in N m<") && svg.contains(">dashed: switches<"));
     }
 
     #[test]

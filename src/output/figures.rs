@@ -2,7 +2,8 @@
 
 use super::units::pretty;
 use super::{Axis, Curve, Figure, Scale, poles};
-use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results};
+use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results, bends};
+use std::collections::BTreeSet;
 
 /// Switches that are marked by lines in a figure, at most.
 const MOST_MARKED: usize = 16;
@@ -47,11 +48,8 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
     let over = first.and_then(|run| plot.over.as_ref().map_or(Some(&run.independent), |over| column(run, over)));
     let (x, factor) = axis(plot, over);
     scale_x(&mut curves, factor);
-    // lines at switches help where there is one run with a few; many would cover the curves
     let breaks = match (&plot.over, runs) {
-        (None, [(_, run)]) if run.table.switches.len() <= MOST_MARKED => {
-            run.table.switches.iter().map(|&i| run.independent.values[i] / factor).collect()
-        }
+        (None, [(_, run)]) => marked(run, plot).into_iter().map(|row| run.independent.values[row] / factor).collect(),
         _ => vec![],
     };
     let shown: Vec<&Column> = first.map_or_else(Vec::new, |run| plot.show.iter().filter_map(|name| column(run, name)).collect());
@@ -66,6 +64,14 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
     };
     let right = plot.right.as_ref().and_then(|right| Some((right, column(first?, right.show.first()?)?)));
     Figure { x, y, curves, breaks, equal: same_plane, ..sides(results, plot, &shown, right.map(|(_, column)| column)) }
+}
+
+/// Rows before switches at which a curve of a plot shows. Lines help at a few; many would cover the curves.
+fn marked(run: &Results, plot: &Plot) -> Vec<usize> {
+    let shown = plot.show.iter().chain(plot.right.iter().flat_map(|right| &right.show)).filter_map(|name| column(run, name));
+    let of = |column: &Column| bends(&run.independent.values, &column.values, &run.table.switches);
+    let rows: BTreeSet<usize> = shown.flat_map(of).collect();
+    if rows.len() > MOST_MARKED { Vec::new() } else { rows.into_iter().collect() }
 }
 
 /// Title and vertical axes of a figure, of which `left` are columns of the axes on the left, and `right` is one of that on the right.
@@ -235,6 +241,22 @@ mod tests {
         // a peak between two runs, a steep rise, and ends of which nothing is known beyond
         assert!(gaps(&[0.0, 0.1, 5.0, 0.1, 0.0]).is_empty());
         assert!(gaps(&[0.0, 0.1, 0.5, 2.0, 5.0, 6.0]).is_empty() && gaps(&[0.0, 5.0, 5.1]).is_empty());
+    }
+
+    #[test]
+    fn lines_stand_at_the_switches_at_which_a_curve_shows() {
+        let x: Vec<f64> = (0..=10).chain(10..=20).map(f64::from).collect();
+        let column =
+            |name: &str, y: fn(f64) -> f64| Column { name: name.into(), values: x.iter().map(|x| y(*x)).collect(), ..Column::default() };
+        let columns = vec![column("bent", |x| (x - 10.0).max(0.0)), column("straight", |x| 2.0 * x)];
+        let breaks = |show: &[&str]| {
+            let plot = Plot { name: "f".into(), show: show.iter().map(|name| (*name).into()).collect(), ..Plot::default() };
+            let table = Table { columns: columns.clone(), switches: vec![10], ..Table::default() };
+            let independent = Column { name: "t".into(), values: x.clone(), ..Column::default() };
+            figures(&Results { table, independent, plots: vec![plot], ..Results::default() }).remove(0).1.breaks
+        };
+        assert_eq!(breaks(&["straight", "bent"]), [10.0]);
+        assert!(breaks(&["straight"]).is_empty());
     }
 
     #[test]

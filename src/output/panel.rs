@@ -222,6 +222,8 @@ impl Line {
 /// What arrows at an edge mean, and the size of these words.
 const LEAVES: [&str; 2] = ["arrows: without bound", "towards a dead point"];
 const NOTE: f64 = 0.8 * TICK;
+/// What dashed lines across the panels mean.
+const SWITCHES: &str = "dashed: switches";
 /// What is farther out of the picture, in pixels, is here.
 const FAR: f64 = 1e7;
 
@@ -292,9 +294,11 @@ impl Panel {
 
     /// Draws the panel; the numbers and the label of x only below the `lowest`.
     pub(super) fn draw(&self, scene: &mut Scene, x: &Ruler, breaks: &[f64], lowest: bool) {
-        self.axes(scene, x, lowest);
         let Rect { top, bottom, left, right } = self.rect;
-        for at in breaks.iter().map(|at| left + x.place(*at) * self.rect.width()).filter(|at| (left..=right).contains(at)) {
+        let places: Vec<f64> =
+            breaks.iter().map(|at| left + x.place(*at) * self.rect.width()).filter(|at| (left..=right).contains(at)).collect();
+        self.axes(scene, x, lowest, !places.is_empty());
+        for at in places {
             scene.line(vec![[at, top], [at, bottom]], Stroke::dashed(GREY, 1.2, &[6.0, 5.0]));
         }
         let mut empty = true;
@@ -356,7 +360,7 @@ impl Panel {
         }
     }
 
-    fn axes(&self, scene: &mut Scene, x: &Ruler, lowest: bool) {
+    fn axes(&self, scene: &mut Scene, x: &Ruler, lowest: bool, marked: bool) {
         let Rect { top, bottom, left, right } = self.rect;
         let grid = |major: bool| Stroke::solid(if major { GRID } else { pale(GRID, 0.5) }, 1.0);
         let across = |tick: &Tick| left + x.part(tick.at) * self.rect.width();
@@ -386,8 +390,12 @@ impl Panel {
             }
         }
         if lowest {
-            let note = LEAVES.iter().map(|text| font::width(text, NOTE) + 16.0).fold(0.0, f64::max);
-            let room = self.rect.width() - if self.clipped.contains(&true) { 2.0 * note } else { 0.0 };
+            let words = LEAVES.iter().filter(|_| self.clipped.contains(&true)).chain(marked.then_some(&SWITCHES));
+            let note = words.map(|text| font::width(text, NOTE) + 16.0).fold(0.0, f64::max);
+            let room = self.rect.width() - 2.0 * note;
+            if marked {
+                scene.text([left, bottom + 66.0], SWITCHES, NOTE, Anchor::Start);
+            }
             scene.text([(left + right) / 2.0, bottom + 66.0], x.label(room), LABEL, Anchor::Middle);
         }
         let upright = |at: Point, text: String| {

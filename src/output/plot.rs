@@ -14,7 +14,7 @@ pub struct Figure {
     pub y: Axis,
     /// What is shown.
     pub curves: Vec<Curve>,
-    /// The x of switches, in the unit of the axis: thin dashed lines, across which no curve is joined.
+    /// The x of switches at which curves show, in the unit of the axis: thin dashed lines, across which no curve is joined.
     pub breaks: Vec<f64>,
     /// Points of interest.
     pub marks: Vec<Mark>,

@@ -2,6 +2,7 @@
 //!
 //! Tables on a disc, reports and figures are made of this and of nothing else.
 
+mod bends;
 mod certificate;
 mod compared;
 mod failure;
@@ -17,6 +18,7 @@ mod unknown;
 
 pub use crate::numerics::extremum::{Extremes, Extremum};
 pub use crate::numerics::resolve::Resolution;
+pub use bends::bends;
 pub use certificate::{Certificate, March};
 pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};
