@@ -3,7 +3,9 @@
 use crate::common;
 use grashof::mechanism::Coordinates;
 use grashof::model::{Document, Report, Selection};
-use grashof::output::{Drawing, Figure, Film, Pace, Shot, ShotOptions, drawing, figures, moving_svg, render_drawing, render_figure};
+use grashof::output::{
+    Drawing, Figure, Film, FormKind, Pace, Shot, ShotOptions, Width, drawing, figures, moving_svg, render_drawing, render_figure,
+};
 use grashof::results::{By, Column, Results, Scene};
 use grashof::studies::common::named::named;
 use grashof::studies::loader::{Loader, NotLoaded};
@@ -381,6 +383,32 @@ studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }} }} }}
         let [low, high] = [ends[0][0].min(ends[1][0]), ends[0][0].max(ends[1][0])];
         assert!((low - 0.2).abs() < 1e-12 && (high - 0.9).abs() < 1e-12, "{slider}: {slide:?}");
         assert!([from, to].iter().all(|end| (low - 1e-9..=high + 1e-9).contains(&end[0])), "{slider}: {slide:?}");
+    }
+}
+
+/// Its rod is thinner and lies in it, wherever the model begins with one of them and however that stands.
+#[test]
+fn a_cylinder_is_seen_around_its_rod() {
+    for angle in ["0 deg", "37 deg", "131 deg"] {
+        let text = format!(
+            "grashof: 1
+name: cylinder
+space: planar
+gravity: none
+bodies:
+  rod: {{ mass: 6 kg, inertia: 1 kg m^2, drawn: [[-0.7 m, 0], [0, 0]] }}
+  barrel: {{ bar: {{ length: 70 cm, mass: 12 kg }} }}
+joints: {{ C: {{ revolute: [ground, barrel.start] }}, S: {{ slider: [barrel.start, rod.origin], axis: [1, 0] }} }}
+drivers: {{ pump: {{ joint: S, rise: {{ by: 45 cm, during: 8 s, law: poly5 }} }}, hold: {{ joint: C, angle: {angle} }} }}
+start: {{ S.position: 90 cm }}
+studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }} }} }}
+"
+        );
+        let drawing = drawn(&text, "lift").1;
+        let form = |name: &str| drawing.bodies.iter().find(|body| body.name == name).expect("a body").poses[0][0].clone();
+        let width = |name: &str| if let FormKind::Bar { width, .. } = form(name).kind { Some(width) } else { None };
+        assert_eq!([width("barrel"), width("rod")], [Some(Width::Drawn(0)), Some(Width::Drawn(1))], "{angle}");
+        assert!(form("barrel").depth > form("rod").depth && form("rod").depth == 0.0, "{angle}");
     }
 }
 

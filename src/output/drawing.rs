@@ -4,7 +4,7 @@ use super::lettering::{Label, Lettering, Name, Named, Obstacle};
 use super::marks;
 use super::naming;
 use super::picture::Picture;
-use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind};
+use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind, Width};
 use super::raster::RenderError;
 use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
@@ -265,7 +265,7 @@ impl Pen<'_> {
         let sheet = self.sheet;
         let rods = self.drawing.links.iter().filter(|link| link.kind == LinkKind::Rod).filter_map(|link| {
             let [from, to] = *link.poses.get(pose)?;
-            let kind = FormKind::Bar { from, to, width: None };
+            let kind = FormKind::Bar { from, to, width: Width::Drawn(0) };
             Some((ROD, 0.0, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
@@ -398,7 +398,7 @@ impl Pen<'_> {
             if let Some(at) = pixels.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) {
                 let text = if named { format!("path of {}", trace.name) } else { trace.name.clone() };
                 let color = path_stroke(index).0;
-                all.push(Name { text, at, also: Vec::new(), reach: 6.0, color, of: Named::Path(pixels) });
+                all.push(Name { text, at, also: Vec::new(), above: Vec::new(), reach: 6.0, color, of: Named::Path(pixels) });
             }
         }
         self.letters.place(all);

@@ -30,9 +30,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
     for body in &drawing.bodies {
         for form in body.poses.first().into_iter().flatten().filter_map(|form| sheet.form(form)) {
             match form {
-                FormKind::Bar { from, to, width } => {
-                    rounded(&mut out, Layer::Bodies, &[back(from), back(to)], width.unwrap_or(BAR * signs.size) * mm)
-                }
+                FormKind::Bar { from, to, width } => rounded(&mut out, Layer::Bodies, &[back(from), back(to)], signs.bar(width) * mm),
                 FormKind::Plate { points } => {
                     let points: Vec<Point> = points.into_iter().map(back).collect();
                     rounded(&mut out, Layer::Bodies, &points, BAR * signs.size * mm);
@@ -145,7 +143,7 @@ fn rounded(out: &mut Entities, layer: Layer, points: &[Point], width: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pose::{Form, Outline, Placement};
+    use super::super::pose::{Form, Outline, Placement, Width};
     use super::*;
 
     #[test]
@@ -161,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_bar_is_drawn_in_its_true_length() {
-        let bar = Form { kind: FormKind::Bar { from: [0.0, 0.0], to: [0.25, 0.0], width: Some(0.02) }, depth: 0.0 };
+        let bar = Form { kind: FormKind::Bar { from: [0.0, 0.0], to: [0.25, 0.0], width: Width::Given(0.02) }, depth: 0.0 };
         let body = Outline { name: "arm".into(), poses: vec![vec![bar]] };
         let hinge =
             Symbol { name: "A\u{3b8}".into(), poses: vec![Placement { at: [0.25, 0.0], ..Placement::default() }], ..Symbol::default() };

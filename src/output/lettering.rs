@@ -5,7 +5,7 @@
 //! beside all others until none moves (discrete descent: Christensen, Marks and Shieber 1995).
 
 use super::font;
-use super::measure::{crosses, gap, meets};
+use super::measure::{crosses, encloses, gap, meets};
 use super::scene::{Anchor, Color, Item, Rect, Scene, Stroke, Text};
 use super::symbols::direction;
 use super::thin::Point;
@@ -74,6 +74,8 @@ pub(super) struct Name {
     pub(super) at: Point,
     /// Places of the same thing that will do as well.
     pub(super) also: Vec<Point>,
+    /// The edges of what hides it: where its name stands in one of them it would be taken for that of the other.
+    pub(super) above: Vec<Vec<Point>>,
     /// With no reach it may stand right on its place.
     pub(super) reach: f64,
     pub(super) color: Color,
@@ -232,7 +234,7 @@ impl Lettering {
             }
             Named::Part(lines) => {
                 let own = least(lines);
-                (own, own > 0.0 && least(&task.rivals) <= own)
+                (own, own > 0.0 && least(&task.rivals) <= own || task.name.above.iter().any(|edge| encloses(edge, area.center())))
             }
             Named::Path(line) => (gap(area, line), false),
         };
@@ -316,7 +318,7 @@ mod tests {
     }
 
     fn pin(text: &str, at: Point) -> Name {
-        Name { text: text.into(), at, also: Vec::new(), reach: 14.0, color: [0; 3], of: Named::Pin }
+        Name { text: text.into(), at, also: Vec::new(), above: Vec::new(), reach: 14.0, color: [0; 3], of: Named::Pin }
     }
 
     #[test]

@@ -76,7 +76,7 @@ pub use matrices::matrices;
 pub use parquet::{ParquetTable, gather_parquet, write_parquet};
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
-pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace};
+pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace, Width};
 pub use posed::drawing;
 pub use raster::RenderError;
 pub use report::{LIVE_POLICY, Report, ReportFault, ReportModel, ReportRuns, ReportStudy, live_page};

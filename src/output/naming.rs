@@ -12,6 +12,9 @@ use super::thin::Point;
 
 /// Directions from the middle of a ring to where its name may stand.
 const RIM: [Point; 4] = [[0.6, -0.8], [0.6, 0.8], [-0.6, -0.8], [-0.6, 0.8]];
+/// Parts of the way from the middle of an area to its edges where its name may stand, and edges that are looked at, at most.
+const TO_EDGE: [f64; 2] = [0.5, 0.8];
+const EDGES: usize = 6;
 /// Names of one place that stand side by side, if there are more than one more.
 const TOGETHER: usize = 3;
 
@@ -28,7 +31,8 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         let seen = |at: &Point| !above.iter().any(|line| encloses(line, *at));
         let mut places: Vec<Point> = std::iter::once(at).chain(beside(&forms)).collect();
         // a bar is named where it is seen, and not at all where it is hidden; of a wider part the edge may be seen
-        if places.len() > 1 {
+        let wide = forms.iter().any(|form| line(form).len() > 2);
+        if places.len() > 1 && (!wide || places.iter().any(seen)) {
             places.retain(seen);
         }
         if places.is_empty() {
@@ -36,14 +40,14 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         }
         let at = places.remove(0);
         let of = Named::Part(forms.iter().map(line).collect());
-        names.push(Name { text: body.name.clone(), at, also: places, reach, color: shaded(body_color(index), 0.5), of });
+        names.push(Name { text: body.name.clone(), at, also: places, above, reach, color: shaded(body_color(index), 0.5), of });
     }
     for link in &drawing.links {
         if let Some(ends) = sheet.ends(link) {
             let reach = if link.kind.turns() { 28.0 } else { 19.0 } * size.max(0.6);
             let (also, of) = (along(ends).to_vec(), Named::Part(vec![ends.to_vec()]));
             let color = if link.kind == LinkKind::Actuator { DRIVE } else { RUST };
-            names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, reach, color, of });
+            names.push(Name { text: link.name.clone(), at: between(ends, 0.5), also, above: Vec::new(), reach, color, of });
         }
     }
     names
@@ -72,16 +76,26 @@ fn hides(form: &FormKind) -> bool {
     !matches!(form, FormKind::Wheel { .. } | FormKind::Gear { rim: Some(_), .. })
 }
 
-/// Places along a bar that are as good for its name as its middle, or on the rim of a ring.
+/// Places along a bar that are as good for its name as its middle, towards the edges of an area, or on the rim of a ring.
 fn beside(forms: &[FormKind]) -> Vec<Point> {
     match forms {
-        [form @ (FormKind::Bar { .. } | FormKind::Plate { .. }), ..] => match line(form)[..] {
-            [a, b] => along([a, b]).to_vec(),
+        [form @ (FormKind::Bar { .. } | FormKind::Plate { .. } | FormKind::Area { .. }), ..] => match &line(form)[..] {
+            [a, b] => along([*a, *b]).to_vec(),
+            edge if forms.len() == 1 => within(edge),
             _ => Vec::new(),
         },
         [FormKind::Gear { center, rim: Some(rim), .. }, ..] => RIM[1..].iter().map(|way| off(*center, *way, *rim, 0.0)).collect(),
         _ => Vec::new(),
     }
+}
+
+/// Places between the middle of an area and its edges; `edge` returns to its first point.
+fn within(edge: &[Point]) -> Vec<Point> {
+    let corners = &edge[..edge.len().saturating_sub(1)];
+    let center = corners.iter().fold([0.0; 2], |sum, p| [sum[0] + p[0] / corners.len() as f64, sum[1] + p[1] / corners.len() as f64]);
+    let middles = edge.windows(2).step_by(corners.len().div_ceil(EDGES).max(1)).map(|ends| between([ends[0], ends[1]], 0.5));
+    let middles: Vec<Point> = middles.collect();
+    TO_EDGE.iter().flat_map(|s| middles.iter().map(move |middle| between([center, *middle], *s))).collect()
 }
 
 fn along(ends: [Point; 2]) -> [Point; 6] {
@@ -110,7 +124,7 @@ fn joints(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
     };
     places
         .into_iter()
-        .map(|(names, at, reach)| Name { text: joined(names), at, also: Vec::new(), reach, color: INK, of: Named::Pin })
+        .map(|(names, at, reach)| Name { text: joined(names), at, also: Vec::new(), above: Vec::new(), reach, color: INK, of: Named::Pin })
         .collect()
 }
 

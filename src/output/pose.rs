@@ -68,8 +68,8 @@ impl Form {
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the line above each variant names its fields")]
 pub enum FormKind {
-    /// A rounded bar; as wide as bars are drawn if it has no `width`.
-    Bar { from: [f64; 2], to: [f64; 2], width: Option<f64> },
+    /// A rounded bar.
+    Bar { from: [f64; 2], to: [f64; 2], width: Width },
     /// A rounded plate around points.
     Plate { points: Vec<[f64; 2]> },
     /// A true outline, closed; `shade` 1 is full light, 0 none.
@@ -83,6 +83,15 @@ pub enum FormKind {
     Gear { center: [f64; 2], radius: f64, teeth: usize, outline: Vec<[f64; 2]>, spoke: Option<[f64; 2]>, rim: Option<f64> },
     /// A point mass.
     Mass { center: [f64; 2], radius: f64 },
+}
+
+/// How wide a bar is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Width {
+    /// As bars are drawn; thinner with each of so many cylinders that it slides in, so that these are seen around it.
+    Drawn(u32),
+    /// So wide.
+    Given(f64),
 }
 
 /// A joint.

@@ -1,6 +1,6 @@
 //! A drawing in pixels: its extent, its scale, and its parts as they lie on the sheet.
 
-use super::pose::{Drawing, Form, FormKind, Gear, Link, Placement};
+use super::pose::{Drawing, Form, FormKind, Gear, Link, Placement, Width};
 use super::scene::{Color, GREY, pale};
 use super::symbols::shaded;
 use super::thin::Point;
@@ -55,7 +55,11 @@ impl Sheet {
         let at = |p: &[f64; 2]| is_usable(p).then(|| self.point(*p));
         Some(match &form.kind {
             FormKind::Bar { from, to, width } => {
-                FormKind::Bar { from: at(from)?, to: at(to)?, width: width.map(|w| (w * self.scale).clamp(3.0, 2000.0)) }
+                let width = match width {
+                    Width::Given(width) => Width::Given((width * self.scale).clamp(3.0, 2000.0)),
+                    drawn => *drawn,
+                };
+                FormKind::Bar { from: at(from)?, to: at(to)?, width }
             }
             FormKind::Plate { points } => FormKind::Plate { points: self.points(points) },
             FormKind::Area { points, shade } => FormKind::Area { points: self.points(points), shade: *shade },

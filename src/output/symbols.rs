@@ -1,13 +1,15 @@
 //! The signs of mechanism drawings, in pixels.
 
 use super::outlines::hull;
-use super::pose::{FormKind, Placement, SymbolKind};
+use super::pose::{FormKind, Placement, SymbolKind, Width};
 use super::scene::{Color, GREY, INK, Scene, Stroke, pale};
 use super::thin::Point;
 use std::f64::consts::TAU;
 
 /// The width of a bar in a drawing of full size.
 pub(super) const BAR: f64 = 20.0;
+/// Width of the rod of a cylinder, as a part of that of the cylinder.
+const ROD: f64 = 0.55;
 /// Half length and half height of a sliding box.
 const BOX: [f64; 2] = [24.0, 16.0];
 /// Teeth that are closer are not drawn, pixels.
@@ -53,7 +55,7 @@ impl Signs {
         let rim = self.rim(looks);
         let thin = Some(Stroke::solid(looks.edge, rim / 2.0));
         match form {
-            FormKind::Bar { from, to, width } => self.rounded(scene, vec![*from, *to], width.unwrap_or(BAR * self.size), looks),
+            FormKind::Bar { from, to, width } => self.rounded(scene, vec![*from, *to], self.bar(*width), looks),
             FormKind::Plate { points } => self.rounded(scene, hull(points), BAR * self.size, looks),
             FormKind::Area { points, shade } => {
                 let fill = shaded(pale(looks.fill, if looks.strong { 0.85 } else { 0.5 }), 1.0 - 0.5 * (1.0 - shade) * looks.strength);
@@ -107,6 +109,14 @@ impl Signs {
                 );
                 circle(*center, radius)
             }
+        }
+    }
+
+    /// How wide a bar is drawn, in pixels.
+    pub(super) fn bar(self, width: Width) -> f64 {
+        match width {
+            Width::Drawn(around) => ROD.powi(around as i32) * BAR * self.size,
+            Width::Given(width) => width,
         }
     }
 

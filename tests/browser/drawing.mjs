@@ -29,6 +29,7 @@ const DRIVE = [0, 112, 84];
 /** Of bearings: a quarter of --faint on --paper. */
 const BEARING = [229, 232, 234];
 const LOADS = [213, 94, 0];
+const VELOCITIES = [0, 158, 115];
 
 export async function stops_are_drawn(open) {
   const { tab } = await open('marks', { study: 'slide' });
@@ -90,6 +91,62 @@ export async function arrows_have_room(open) {
       const { count, box: [left, top, right], size } = await inked(tab, LOADS);
       assert.ok(count > 100 && left > 3 && top > 3 && right < size[0] - 4, `${width}, ${part}: from ${left}, ${top} to ${right} of ${size}`);
     }
+  }
+}
+
+export async function arrows_have_room_in_space(open) {
+  const { tab } = await open('arm', { study: 'lift' });
+  await tab.getByRole('checkbox', { name: 'velocities' }).check();
+  let most = 0;
+  for (let part = 0; part <= 10; part++) {
+    await tab.locator('.scrub').fill(String(1000 * part));
+    const { count, box: [left, top, right, bottom], size } = await inked(tab, VELOCITIES);
+    if (count > 0) assert.ok(left > 3 && top > 3 && right < size[0] - 4 && bottom < size[1] - 4, `${part}: from ${left}, ${top} to ${right}, ${bottom} of ${size}`);
+    most = Math.max(most, count);
+  }
+  assert.ok(most > 300, `${most} pixels of arrows`);
+}
+
+/** What is told where a reader points. */
+async function told(tab, [x, y]) {
+  const { x: left, y: top } = await tab.locator('.canvas').boundingBox();
+  await tab.mouse.move(left + x, top + y);
+  await seen(tab);
+  const tip = tab.locator('.canvas .tip');
+  return (await tip.isVisible()) ? tip.innerText() : null;
+}
+
+export async function what_is_pointed_at_is_named(open) {
+  const { tab } = await open('crank_rocker', { study: 'one-turn' });
+  await seen(tab);
+  const names = await tab.evaluate(() => grashof.names());
+  const place = (text) => names.find((name) => name.text === text).at;
+  assert.match(await told(tab, place('A')), /^A: revolute, .*crank/);
+  assert.equal(await told(tab, place('coupler')), 'coupler');
+  assert.equal(await told(tab, [4, 4]), null);
+  const spatial = (await open('stewart_platform', { study: 'ride' })).tab;
+  await seen(spatial);
+  const { at } = (await spatial.evaluate(() => grashof.names())).find(({ text }) => text === 'cylinder2');
+  assert.equal(await told(spatial, at), 'cylinder2');
+}
+
+export async function names_without_room_are_told(open) {
+  for (const [model, study, bodies] of [['excavator', 'dig', /boom|stick|bucket|lever|link|(barrel|rod)[123]/g], ['stewart_platform', 'ride', /plate|(cylinder|rod)[1-6]/g]]) {
+    const { tab } = await open(model, { study });
+    const named = new Set();
+    for (let part = 0; part <= 10; part++) {
+      await tab.locator('.scrub').fill(String(1000 * part));
+      await seen(tab);
+      for (const { text, of } of await tab.evaluate(() => grashof.names())) if (of === 'body') named.add(text);
+    }
+    const note = await tab.locator('.unnamed').innerText();
+    assert.match(note, /^no room for the names? of .*: point at a part/);
+    const left = note.match(bodies) ?? [];
+    const count = { excavator: 11, stewart_platform: 13 }[model];
+    assert.equal(new Set([...named, ...left]).size, count, `${model}: ${[...named]} and ${note}`);
+    await tab.getByRole('checkbox', { name: 'names' }).uncheck();
+    await seen(tab);
+    assert.equal(await tab.locator('.unnamed').innerText(), '');
   }
 }
 

@@ -69,8 +69,11 @@ export async function keys_move_the_cursor_of_a_figure(open) {
 }
 
 export async function dotted_lines_are_explained(open) {
-  const { tab } = await open('crank_rocker', { study: 'one-turn' });
-  assert.match(await plot(tab, 'angles').locator('.dotted').innerText(), /switches/);
+  const { tab } = await open('excavator', { study: 'dig' });
+  assert.match(await plot(tab, 'forces').locator('.dotted').innerText(), /switches/);
+  // where other columns switch, and not what is plotted
+  const other = await open('crank_rocker', { study: 'one-turn' });
+  assert.equal(await plot(other.tab, 'angles').locator('.dotted').count(), 0);
   const swept = await open('crank_rocker', { study: 'fluctuation' });
   assert.equal(await swept.tab.locator('.plot .dotted').count(), 0);
 }

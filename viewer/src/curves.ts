@@ -32,14 +32,14 @@ export interface Fine { x: number[]; pieces: Piece[] }
 /** Places as dense as the rows that the study had. */
 function fine(results: Results): Fine {
   const x = results.independent.values.map((v) => v ?? NaN);
-  const { kept } = results.rows;
+  const { steps: rows } = results.rows;
   return {
     x,
     pieces: pieces(results).map(([from, to]) => {
       const at: number[] = [];
       for (let i = from; i < to; i++) {
         at.push(x[i]!);
-        const steps = i + 1 < to ? Math.min(FINEST, (kept[i + 1] ?? i + 1) - (kept[i] ?? i)) : 1;
+        const steps = i + 1 < to ? Math.min(FINEST, rows[i + 1] ?? 1) : 1;
         for (let k = 1; k < steps; k++) at.push(x[i]! + ((x[i + 1]! - x[i]!) * k) / steps);
       }
       const leads = x[to] !== undefined && x[to] !== x[to - 1] && !results.table.switches.includes(to - 1);

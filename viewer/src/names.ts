@@ -3,12 +3,10 @@
 // same, the later one is left out.
 
 import type { Motion, Vector } from './motion';
+import { type Box, around, away, circle, corners, extent, outline } from './outlines';
 import { type Pen, type Point, hull, off } from './plane/pen';
 import { type Inks, bodyInks, driveInk, pathInk } from './theme';
 import type { Shape } from './types';
-
-/** Left, top, right, bottom. */
-export type Box = [number, number, number, number];
 
 /** A name that is drawn: where its joint or a place on its body is, and where its text stands. */
 export interface Named { text: string; at: Point; box: Box; of: 'joint' | Other['of'] }
@@ -28,12 +26,17 @@ interface Part { body: number; closed: boolean; solid: boolean; lines: Vector[][
 /** A part as it is seen. */
 interface SeenPart { body: number; closed: boolean; lines: Point[][]; boxes: Box[] }
 
+/** Where names stand at the places that are looked at. */
+type Taken = Map<Group, Box[]>;
+
 /** Where a point is seen at a place of the motion. */
 type Seen = (at: Vector, place: number) => Point;
 
 /** Places of the motion that are looked at, and comparisons of a name with a joint, at most. */
 const LOOKS = 24;
 const MOST = 3e6;
+/** How often the names of joints are placed, each beside those of all others. */
+const ROUNDS = 3;
 /** Joints that are no farther apart, pixels, have one text, of so many names if there are more than one more. */
 const ONE = 4;
 const TOGETHER = 3;
@@ -51,7 +54,7 @@ const NEAR = 8;
 /** The side of a name that lies on its body. */
 const ON = 16;
 /** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
-const COST = { name: 10, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
+const COST = { name: 20, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
@@ -63,9 +66,10 @@ const ROW = 14;
 /** Parts of a bar where its name may stand, and of the radius of a disc, in so many directions. */
 const ALONG = [0.5, 0.35, 0.65, 0.2, 0.8];
 const RIM = 0.82;
+/** Parts of the way from the middle of a plate to its edge, and the edges that are looked at, at most. */
+const TO_EDGE = [0.5, 0.8];
+const SIDES_NAMED = 6;
 const ROUND = 8;
-/** Corners of the edge of a disc. */
-const EDGES = 16;
 
 const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room < a[2] && a[1] - room < b[3] && b[1] - room < a[3];
 
@@ -91,74 +95,27 @@ function toBox([x, y]: Point, [left, top, right, bottom]: Box): { to: Point; far
   return { to, far: Math.hypot(to[0] - x, to[1] - y) };
 }
 
-/** Where the name of a body may stand, in its frame: along a bar, in the middle of what is wide. */
+/** Where the name of a body may stand, in its frame: along a bar, in the middle of what is wide and towards its edges. */
 function spots(shape: Shape): { places: number[][]; wide: boolean } {
   const middle = (points: number[][]) => points[0]!.map((_, i) => points.reduce((sum, p) => sum + p[i]!, 0) / points.length);
-  const along = (from: number[], to: number[]) => ALONG.map((s) => from.map((x, i) => x + s * (to[i]! - x)));
+  const toward = (from: number[], to: number[], s: number) => from.map((x, i) => x + s * (to[i]! - x));
+  const along = (from: number[], to: number[]) => ALONG.map((s) => toward(from, to, s));
+  const within = (points: number[][]) => {
+    const center = middle(points);
+    if (points.length < 3 || center.length > 2) return [center];
+    const every = Math.ceil(points.length / SIDES_NAMED);
+    const edges = points.flatMap((point, k) => (k % every === 0 ? [toward(point, points[(k + 1) % points.length]!, 0.5)] : []));
+    return [center, ...TO_EDGE.flatMap((s) => edges.map((edge) => toward(center, edge, s)))];
+  };
   switch (shape.kind) {
     case 'bar': return { places: along(shape.from, shape.to), wide: false };
     case 'cylinder': return { places: [middle([shape.from, shape.to])], wide: true };
-    case 'hull': return shape.points.length === 2 ? { places: along(shape.points[0]!, shape.points[1]!), wide: false } : { places: [middle(shape.points)], wide: shape.points.length > 2 };
-    case 'polygon': return { places: [middle(shape.points)], wide: true };
+    case 'hull': return shape.points.length === 2 ? { places: along(shape.points[0]!, shape.points[1]!), wide: false } : { places: within(shape.points), wide: shape.points.length > 2 };
+    case 'polygon': return { places: within(shape.points), wide: true };
     case 'mass': return { places: [shape.at], wide: false };
     case 'disc': case 'gear': return { places: [...(shape.radius > 0 ? [shape.center] : []), ...circle(shape.center, RIM * Math.abs(shape.radius), ROUND)], wide: true };
     default: return { places: [shape.center], wide: true };
   }
-}
-
-/** Points of a circle in the plane; none in space. */
-function circle(center: number[], radius: number, count: number): number[][] {
-  const turn = (k: number) => (2 * Math.PI * k) / count;
-  return center.length > 2 ? [] : Array.from({ length: count }, (_, k) => [center[0]! + radius * Math.cos(turn(k)), center[1]! + radius * Math.sin(turn(k))]);
-}
-
-/** The line of a body in its frame, or the edge of what is wide. */
-function outline(shape: Shape): { line: number[][]; closed: boolean } {
-  switch (shape.kind) {
-    case 'bar': case 'cylinder': return { line: [shape.from, shape.to], closed: false };
-    case 'hull': case 'polygon': return { line: shape.points, closed: shape.points.length > 2 && shape.points[0]!.length === 2 };
-    case 'mass': return { line: [shape.at], closed: false };
-    case 'disc': case 'gear': return shape.center.length > 2 ? { line: [shape.center], closed: false } : { line: circle(shape.center, Math.abs(shape.radius), EDGES), closed: true };
-    default: return { line: [shape.center], closed: false };
-  }
-}
-
-/** Corners of what is solid in space; none of a bar, which is its line. */
-function corners(shape: Shape): number[][] {
-  const beside = (center: number[], radius: number) => [0, 1, 2].flatMap((axis) => [-radius, radius].map((x) => center.map((c, i) => (i === axis ? c + x : c))));
-  switch (shape.kind) {
-    case 'hull': return shape.points.length > 2 ? shape.points : [];
-    case 'box': return Array.from({ length: 8 }, (_, k) => shape.center.map((c, i) => c + ((k >> i) % 2 ? 0.5 : -0.5) * (shape.size[i] ?? 0)));
-    // a cube about what is round is near enough
-    case 'cylinder': return [...beside(shape.from, shape.radius), ...beside(shape.to, shape.radius)];
-    case 'disc': case 'sphere': return beside(shape.center, shape.radius);
-    default: return [];
-  }
-}
-
-/** The box around points. */
-function around(points: Point[]): Box {
-  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-}
-
-/** How far a point is from a line in the picture; 0 within an edge. */
-function away([x, y]: Point, line: Point[], closed: boolean): number {
-  let [least, inside] = [Infinity, false];
-  for (let i = closed ? 0 : Math.min(1, line.length - 1); i < line.length; i++) {
-    const [[ax, ay], [bx, by]] = [line[(i || line.length) - 1]!, line[i]!];
-    const [dx, dy] = [bx - ax, by - ay];
-    const s = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
-    least = Math.min(least, Math.hypot(ax + s * dx - x, ay + s * dy - y));
-    if (ay > y !== by > y && x < ax + ((y - ay) / dy) * dx) inside = !inside;
-  }
-  return closed && inside ? 0 : least;
-}
-
-/** How large a line is in the picture. */
-function extent(line: Point[]): number {
-  const [left, top, right, bottom] = around(line);
-  return Math.hypot(right - left, bottom - top);
 }
 
 /** Whether the middle of a box, or one of its ends, lies within a part that is wide, at a place that is looked at. */
@@ -171,6 +128,8 @@ function covers({ closed, lines, boxes }: SeenPart, look: number, box: Box): boo
 export class Names {
   /** What was drawn last. */
   drawn: Named[] = [];
+  /** What has no name in the present view, as there is no room for it. */
+  left: string[] = [];
   private groups: Group[] = [];
   private readonly joints: (Spot & { name: string; room: number; bodies: number[] })[];
   private readonly others: Other[];
@@ -263,16 +222,23 @@ export class Names {
       return { body, closed, lines: edges, boxes: edges.map(around) };
     });
     this.groups = this.together(pen, pixel);
-    const taken: Box[][] = [];
-    const take = (group: Group) => group.points.forEach((at, k) => (taken[k] ??= []).push(within(boxOn(group.side, at, group), size)));
-    for (const group of this.groups) {
-      this.choose(group, SIDES, before.get(group.text), taken, size);
-      take(group);
+    const taken: Taken = new Map();
+    const take = (group: Group) => taken.set(group, group.points.map((at) => within(boxOn(group.side, at, group), size)));
+    for (let round = 0; round < ROUNDS; round++) {
+      for (const group of this.groups) {
+        taken.delete(group);
+        this.choose(group, SIDES, before.get(group.text), taken, size);
+        take(group);
+      }
     }
     const joints = this.groups;
     const others = this.others.filter(({ of }) => of !== 'path' || paths);
+    this.left = [];
     const area = [...joints.map(({ width }) => width), ...others.map(({ name }) => pen.width(name))].reduce((sum, width) => sum + width * ROW, 0);
-    if (area > NAMED * size[0] * size[1]) return;
+    if (area > NAMED * size[0] * size[1]) {
+      this.left = others.map(({ name }) => name);
+      return;
+    }
     for (const other of others) {
       const { name: text, spots: all } = other;
       const width = pen.width(text);
@@ -282,7 +248,10 @@ export class Names {
         return { group, cost, all: other.body === undefined ? cost : cost + this.astray(group, other.body, size) };
       });
       const best = groups.reduce((a, b) => (b.all < a.all ? b : a));
-      if (best.cost > CROWDED) continue;
+      if (best.cost > CROWDED) {
+        this.left.push(text);
+        continue;
+      }
       take(best.group);
       this.groups = [...this.groups, best.group];
     }
@@ -294,7 +263,7 @@ export class Names {
   }
 
   /** Gives a name the best of its sides; how bad that is. */
-  private choose(group: Group, sides: number, before: number | undefined, taken: Box[][], size: Point): number {
+  private choose(group: Group, sides: number, before: number | undefined, taken: Taken, size: Point): number {
     const { points } = group;
     let least = Infinity;
     for (let side = 0; side < sides; side++) {
@@ -306,14 +275,14 @@ export class Names {
   }
 
   /** What stands in the way of a name on a side over the motion; no more than `most` is of interest. */
-  private cost(group: Group, side: number, taken: Box[][], size: Point, most: number): number {
+  private cost(group: Group, side: number, taken: Taken, size: Point, most: number): number {
     let sum = 0;
     for (let k = 0; k < group.points.length && sum < most; k++) {
       const own = group.points[k]!;
       const free = boxOn(side, own, group);
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
-      for (const other of taken[k] ?? []) if (overlap(box, other, 1)) sum += COST.name;
+      for (const boxes of taken.values()) if (overlap(box, boxes[k]!, 1)) sum += COST.name;
       if (this.inSpace && group.bodies.length > 0) sum += COST.over * this.seenParts.filter((part) => !group.bodies.includes(part.body) && covers(part, k, box)).length;
       const away = toBox(own, box).far;
       for (const { points } of this.groups) {

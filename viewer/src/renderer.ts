@@ -29,6 +29,10 @@ export interface Renderer {
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void;
   /** The names that are drawn. */
   named(): Named[];
+  /** What has no name in the present view, as there is no room for it. */
+  unnamed(): string[];
+  /** What is at a point of the canvas, in words. */
+  pointed(at: [number, number]): string | null;
   /** The arrows that tell the scale of others. */
   scales(): Told[];
   /** Wheels with their numbers of teeth, 0 without, and racks with those of their pinions; their outlines, pixels. */

@@ -28,6 +28,8 @@ const FLAT = 0.55;
 const TALL = 1;
 /** One that is flatter has the whole width of the page. */
 const BROAD = 0.3;
+/** Names without room that are told, if there are more than one more. */
+const TOLD = 4;
 const PLAY = 'M4 2.5v11l9-5.5z';
 const PAUSE = 'M4 3h3v10H4zM9 3h3v10H9z';
 
@@ -80,6 +82,11 @@ export class Stage {
   private speeds: [string, number][] = [];
   private readonly shown = h('div', { class: 'shown', role: 'group', 'aria-label': 'what is shown' });
   private readonly note = h('p', { class: 'note' });
+  /** Which names have no room. */
+  private readonly unnamed = h('p', { class: 'note unnamed' });
+  /** The name of what a reader points at, and where that is. */
+  private readonly tip = h('div', { class: 'tip', hidden: true, 'aria-hidden': 'true' });
+  private at: [number, number] | null = null;
   private readonly drawings = h('select', { 'aria-label': 'drawing' });
   private renderer: Renderer | null = null;
   private pace: Pace | null = null;
@@ -100,7 +107,7 @@ export class Stage {
     this.results = study;
     if (kept) [this.options, this.begun] = [kept.options, true];
     this.element = h('section', { class: 'stage card', 'aria-label': 'the mechanism in motion' },
-      this.choices(), h('div', { class: 'canvas' }, this.canvas), this.transport(), this.shown, this.note);
+      this.choices(), h('div', { class: 'canvas' }, this.canvas, this.tip), this.transport(), this.shown, this.unnamed, this.note);
     this.listen();
     new ResizeObserver(() => this.fit()).observe(this.canvas.parentElement!);
   }
@@ -160,6 +167,28 @@ export class Stage {
     const ratio = this.ratio();
     this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.renderer.draw(this.clock.at, this.options, inks(), width, height);
+    this.tellUnnamed();
+    this.tellPointed();
+  }
+
+  /** Says which names have no room. */
+  private tellUnnamed(): void {
+    const names = this.options.names ? this.renderer!.unnamed() : [];
+    const more = names.length > TOLD + 1 ? ` and ${names.length - TOLD} others` : '';
+    const told = more ? names.slice(0, TOLD) : names;
+    const text = names.length > 0 ? `no room for the ${names.length > 1 ? 'names' : 'name'} of ${told.join(', ')}${more}: point at a part to read its name, or zoom in` : '';
+    if (this.unnamed.textContent !== text) this.unnamed.textContent = text;
+  }
+
+  /** Names what a reader points at. */
+  private tellPointed(): void {
+    const { at, tip } = this;
+    const text = at && this.renderer ? this.renderer.pointed(at) : null;
+    tip.hidden = text === null;
+    if (!at || text === null) return;
+    if (tip.textContent !== text) tip.textContent = text;
+    tip.style.left = `${Math.max(0, Math.min(at[0] + 14, this.size[0] - tip.offsetWidth))}px`;
+    tip.style.top = `${at[1] + 18 + tip.offsetHeight > this.size[1] ? at[1] - 10 - tip.offsetHeight : at[1] + 18}px`;
   }
 
   /** Follows the clock. */
@@ -427,8 +456,17 @@ export class Stage {
       this.renderer?.zoom(Math.exp(-event.deltaY * 0.0015), event.clientX - box.left, event.clientY - box.top);
       this.redraw();
     }, { passive: false });
-    canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
+    const points = (event: PointerEvent | null) => {
+      this.at = event && [event.offsetX, event.offsetY];
+      this.tellPointed();
+    };
+    canvas.addEventListener('pointerdown', (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      points(event);
+    });
+    canvas.addEventListener('pointerleave', (event) => event.pointerType === 'mouse' && points(null));
     canvas.addEventListener('pointermove', (event) => {
+      points(event.buttons === 0 ? event : null);
       if (!canvas.hasPointerCapture(event.pointerId)) return;
       this.renderer?.drag(event.movementX, event.movementY, !event.shiftKey && event.buttons === 1);
       this.redraw();

@@ -53,8 +53,8 @@ export interface Plot {
   beside: { label: string; of: string; x: Num[]; y: Num[]; measured: boolean }[];
 }
 
-/** What was left out of a table: numbers of the rows that are there, and behind which of them a smooth piece ends. */
-export interface RowsShown { kept: number[]; of: number; selected: number | null; within: number; breaks: number[] }
+/** What was left out of a table: by how many rows each row that is there stands behind the one before, and behind which of them a smooth piece ends. */
+export interface RowsShown { steps: number[]; of: number; selected: number | null; within: number; breaks: number[]; bends: Record<string, number[]> }
 
 export interface Solution {
   parameter: Scalar;

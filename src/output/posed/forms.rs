@@ -2,9 +2,9 @@
 
 use super::Posed;
 use crate::output::polytope;
-use crate::output::pose::{Form, FormKind};
+use crate::output::pose::{Form, FormKind, Width};
 use crate::output::view::{across, cross, dot};
-use crate::results::scene::{Place, Shape, rim, wheel};
+use crate::results::scene::{Joint, Place, Shape, rim, wheel};
 use std::f64::consts::TAU;
 
 /// Corners of a circle.
@@ -13,6 +13,8 @@ const CORNERS: usize = 96;
 const SPOKE: f64 = 0.8;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
+/// Cylinders, one in the other, that are told apart.
+const MOST_STAGES: u32 = 4;
 
 /// The faces of the hull of points in space, of those that are not joined by legs.
 pub(in crate::output) fn faces_of(points: &[Vec<f64>]) -> Vec<Vec<usize>> {
@@ -26,13 +28,14 @@ impl Posed<'_> {
         let world = |at: &[f64]| self.scene.world(poses, &Place { body, at: at.to_vec() });
         let planar = self.scene.dimensions == 2;
         match shape {
-            Shape::Bar { from, to, width } => vec![self.bar(world(from), world(to), *width)],
+            Shape::Bar { from, to, width } => vec![self.bar(body, [world(from), world(to)], *width)],
             Shape::Hull { points } => {
                 let places: Vec<[f64; 3]> = points.iter().map(|p| world(p)).collect();
                 match if planar { Vec::new() } else { faces_of(points) } {
-                    _ if !planar && (3..=LEGS).contains(&places.len()) => self.legs(&places),
+                    _ if !planar && (3..=LEGS).contains(&places.len()) => self.legs(body, &places),
                     // a flat one is a plate
-                    faces if faces.len() < 3 => vec![self.plate(&places)],
+                    _ if places.len() == 2 => vec![self.bar(body, [places[0], places[1]], None)],
+                    faces if faces.len() < 3 => vec![self.plate(body, &places)],
                     faces => {
                         let corners = faces.iter().map(|face| face.iter().map(|k| places[*k]).collect::<Vec<_>>());
                         corners.filter_map(|corners| self.face(&corners)).collect()
@@ -104,9 +107,28 @@ impl Posed<'_> {
         self.light(normal).map(|light| self.area(corners, light))
     }
 
-    fn bar(&self, a: [f64; 3], b: [f64; 3], width: Option<f64>) -> Form {
-        let kind = FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width };
-        Form { kind, depth: 0.5 * (self.view.depth(a) + self.view.depth(b)) }
+    /// A bar of a body.
+    fn bar(&self, body: usize, [a, b]: [[f64; 3]; 2], width: Option<f64>) -> Form {
+        let width = width.map_or_else(|| self.width(body), Width::Given);
+        let depth = self.depth_of_bar(body).unwrap_or_else(|| 0.5 * (self.view.depth(a) + self.view.depth(b)));
+        Form { kind: FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width }, depth }
+    }
+
+    /// The width of a bar of a body to which the model gives none.
+    fn width(&self, body: usize) -> Width {
+        Width::Drawn(self.telescope(body, |joint| [joint.a.body, joint.b.body], 0))
+    }
+
+    /// In the plane the depth of a bar of a body: cylinders lie in front of what slides in them.
+    fn depth_of_bar(&self, body: usize) -> Option<f64> {
+        let rods = || self.telescope(body, |joint| [joint.b.body, joint.a.body], 0);
+        (self.scene.dimensions == 2).then(|| f64::from(rods()) * f64::MIN_POSITIVE)
+    }
+
+    /// How many cylinders are around a body, or rods within it, one in the other: the other body of each such slide of its own.
+    fn telescope(&self, body: usize, ends: fn(&Joint) -> [usize; 2], known: u32) -> u32 {
+        let slides = self.scene.joints.iter().filter(|joint| joint.telescopes && ends(joint)[0] == body && known < MOST_STAGES);
+        slides.map(|joint| self.telescope(ends(joint)[1], ends, known + 1)).max().unwrap_or(known)
     }
 
     /// In the plane large plates lie under small ones and under bars; a disc is as large as the square around it.
@@ -121,17 +143,17 @@ impl Posed<'_> {
         places.iter().map(|p| self.view.depth(*p)).sum::<f64>() / places.len().max(1) as f64
     }
 
-    fn plate(&self, places: &[[f64; 3]]) -> Form {
+    fn plate(&self, body: usize, places: &[[f64; 3]]) -> Form {
         let points: Vec<[f64; 2]> = places.iter().map(|p| self.view.flat(*p)).collect();
-        if let [from, to] = points[..] {
-            return Form {
-                kind: FormKind::Bar { from, to, width: None },
-                depth: if self.scene.dimensions == 2 { 0.0 } else { self.depth(places) },
-            };
-        }
         // on one line they are a bar, too
-        let bar = self.scene.dimensions == 2 && crate::output::outlines::hull(&points).len() < 3;
-        Form { kind: FormKind::Plate { points }, depth: if bar { 0.0 } else { self.depth(places) } }
+        let line = self.depth_of_bar(body).map(|depth| (depth, crate::output::outlines::hull(&points)));
+        match line {
+            Some((depth, ends)) if ends.len() == 2 => {
+                Form { kind: FormKind::Bar { from: ends[0], to: ends[1], width: self.width(body) }, depth }
+            }
+            Some((depth, ends)) if ends.len() < 3 => Form { kind: FormKind::Plate { points }, depth },
+            _ => Form { kind: FormKind::Plate { points }, depth: self.depth(places) },
+        }
     }
 
     fn area(&self, places: &[[f64; 3]], shade: f64) -> Form {
@@ -140,9 +162,9 @@ impl Posed<'_> {
     }
 
     /// Bars from the middle of places to each of them.
-    fn legs(&self, places: &[[f64; 3]]) -> Vec<Form> {
+    fn legs(&self, body: usize, places: &[[f64; 3]]) -> Vec<Form> {
         let middle = std::array::from_fn(|i| places.iter().map(|p| p[i]).sum::<f64>() / places.len() as f64);
-        places.iter().map(|p| self.bar(middle, *p, None)).collect()
+        places.iter().map(|p| self.bar(body, [middle, *p], None)).collect()
     }
 
     /// How light a face with this outward normal is; none if it is turned away.

@@ -91,13 +91,8 @@ impl Report {
     #[must_use]
     pub fn new(model: &ReportModel<'_>) -> Self {
         let head = model.json().to_string();
-        let mut report = Self {
-            title: model.name.into(),
-            data: GzEncoder::new(Vec::new(), Compression::default()),
-            listed: 0,
-            studies: 0,
-            spatial: false,
-        };
+        let mut report =
+            Self { title: model.name.into(), data: GzEncoder::new(Vec::new(), Compression::best()), listed: 0, studies: 0, spatial: false };
         report.put(head.strip_suffix('}').unwrap_or(&head));
         report.put(",\"studies\":[");
         report

@@ -2,9 +2,9 @@
 
 use super::axes::{ROUND_OFF, Seen};
 use super::rows::{Allowed, Curves, Kept};
-use crate::results::{Column, Results, Table};
+use crate::results::{Column, Results, Table, bends};
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Part of the range of an axis that curves over it may be off between the rows that are kept.
 pub(super) const WITHIN: f64 = 1e-4;
@@ -21,16 +21,18 @@ const PLACES: f64 = 1e-9;
 /// What was left out of a table.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(super) struct RowsShown {
-    /// Numbers of the rows that are kept, among those that were at hand.
-    kept: Vec<usize>,
+    /// Of each row that is kept by how many rows it stands behind the one before, among those that were at hand; of the first its number.
+    steps: Vec<usize>,
     /// Rows that the study has.
     of: usize,
     /// Rows that were at hand, if these are not all.
     selected: Option<usize>,
     /// Part of the range of its axis by which a curve may be off between them.
     within: f64,
-    /// Places in `kept` behind which a new smooth piece begins.
+    /// Places among the kept rows behind which a new smooth piece begins.
     breaks: Vec<usize>,
+    /// For each column that jumps or bends at a switch the places among the kept rows just before those where it does.
+    bends: BTreeMap<String, Vec<usize>>,
 }
 
 /// A study's rows as a page has them.
@@ -63,8 +65,14 @@ impl Thinned {
         // the variable among the columns is the same text again, which takes no room when it is compressed
         let own = |column: &Column| if column.name == results.independent.name { PLACES } else { part };
         let mut thin = columns.iter().zip(&seen).map(|(column, seen)| with_rows(column, &kept.rows, own(column), seen));
-        let mut switches: Vec<usize> = results.table.switches.iter().filter_map(|row| kept.rows.binary_search(row).ok()).collect();
-        switches.sort_unstable();
+        let places = |rows: &[usize]| {
+            let mut places: Vec<usize> = rows.iter().filter_map(|row| kept.rows.binary_search(row).ok()).collect();
+            places.sort_unstable();
+            places
+        };
+        let switches = places(&results.table.switches);
+        let bends = columns.iter().map(|column| (column.name.clone(), places(&bends(x, &column.values, &results.table.switches))));
+        let bends: BTreeMap<String, Vec<usize>> = bends.filter(|(_, places)| !places.is_empty()).collect();
         Self {
             independent: with_rows(&results.independent, &kept.rows, PLACES, &Seen::of(results, &results.independent)),
             table: Table {
@@ -74,7 +82,7 @@ impl Thinned {
                 reasons: results.table.reasons.clone(),
             },
             curves: thin.collect(),
-            shown: shown(kept, x.len(), results.table.selected_from),
+            shown: RowsShown { bends, ..shown(kept, x.len(), results.table.selected_from) },
         }
     }
 
@@ -89,8 +97,9 @@ fn shown(kept: Kept, rows: usize, selected_from: Option<usize>) -> RowsShown {
         of: selected_from.unwrap_or(rows),
         selected: selected_from.map(|_| rows),
         within: WITHIN * kept.off.max(1.0),
-        kept: kept.rows,
+        steps: std::iter::once(0).chain(kept.rows.iter().copied()).zip(&kept.rows).map(|(before, row)| row - before).collect(),
         breaks: kept.breaks,
+        bends: BTreeMap::new(),
     }
 }
 
@@ -174,7 +183,7 @@ mod tests {
         };
         let off = |results: &Results| {
             let thin = Thinned::of(results, OF_STUDY, &|_| true);
-            let nodes = |k: usize| [0, 1, 2, 3].map(|i| k.saturating_sub(1).min(thin.shown.kept.len() - 5) + i);
+            let nodes = |k: usize| [0, 1, 2, 3].map(|i| k.saturating_sub(1).min(thin.shown.steps.len() - 5) + i);
             let (t, f) = (&thin.independent.values, &thin.table.columns[0].values);
             let curve = |x: f64| {
                 let nodes = nodes(t.iter().rposition(|at| *at <= x).unwrap_or(0));

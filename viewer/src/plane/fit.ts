@@ -1,5 +1,7 @@
 // How large a mechanism in the plane is seen, and where, so that its arrows have room as well.
 
+import type { Arrows, Kind } from '../arrows';
+import { FIRST } from '../renderer';
 import type { Point } from './pen';
 
 /** Bounds, m. */
@@ -11,12 +13,43 @@ export interface Tip { at: Point; reach: Point }
 /** What is seen: pixels to the metre, and where the middle of the bounds is. */
 export interface Fitted { scale: number; middle: Point }
 
+/** Sizes of the picture, with what it shows, of which the room is kept. */
+const FITS = 8;
+
+/** What is seen in pictures of several sizes. */
+export class Fits {
+  private readonly known = new Map<string, Fitted>();
+
+  /** That of a size, made once. */
+  of(key: string, make: () => Fitted): Fitted {
+    const known = this.known.get(key);
+    if (known) return known;
+    const made = make();
+    if (this.known.size > FITS) this.known.clear();
+    this.known.set(key, made);
+    return made;
+  }
+
+  clear(): void {
+    this.known.clear();
+  }
+}
+
 /** Room around a mechanism for its signs, and around the tips of arrows, pixels. */
-const ROOM = 34;
+export const ROOM = 34;
 const EDGE = 6;
 /** Part of the scale without arrows that these leave at least, and how often the way to it is halved. */
 const LEAST = 0.4;
 const HALVINGS = 12;
+
+/** The tips of arrows of some kinds at a scale, pixels to the metre; `tips` are those of a kind, which reach so far in its own unit. */
+export function tipsOf(arrows: Arrows, kinds: Set<Kind>, short: number, tips: (kind: Kind) => Tip[]): (scale: number) => Tip[] {
+  const all = [...kinds].map((kind) => ({ kind, own: tips(kind) }));
+  return (scale) => all.flatMap(({ kind, own }) => {
+    const pixels = arrows.pixels(kind, FIRST, short, scale);
+    return own.map(({ at, reach }): Tip => ({ at, reach: [reach[0] * pixels, reach[1] * pixels] }));
+  });
+}
 
 /** The largest scale at which bounds and tips are in a picture, these in the middle where the tips let them. */
 export function fitted({ low, high }: Bounds, tips: (scale: number) => Tip[], size: Point): Fitted {

@@ -4,12 +4,14 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
-import { FIRST, type Options, PALE, type Renderer } from '../renderer';
+import { pointed } from '../pointed';
+import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
+import { ROD, type Stages, stagesOf } from '../telescope';
 import { type Inks, PATHS, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Gear, Joint, Link, Place, Shape, Trace, Wheel } from '../types';
 import { cylinder } from './cylinder';
-import { type Bounds, type Fitted, type Tip, fitted } from './fit';
+import { type Bounds, Fits, type Fitted, type Tip, fitted, tipsOf } from './fit';
 import { LEVEL, Pen, type Point, hull, off, toward } from './pen';
 import * as signs from './signs';
 
@@ -26,8 +28,6 @@ const BAR_ROOM = 200;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
-/** Sizes of the picture, with what it shows, of which the room is kept. */
-const FITS = 8;
 /** Teeth that are closer are not drawn, pixels. */
 const CLOSE = 4;
 /** Dashes of the first five paths, the next five, and so on. */
@@ -57,13 +57,16 @@ export class Plane implements Renderer {
   private bounds: Bounds;
   /** The least size of what is seen, m. */
   private least = 1e-9;
+  private readonly stages: Stages;
   private readonly paths: { trace: Trace; at: number[]; points: Point[] }[];
   private scale = 0;
   private zoomed = 1;
   private shift: Point = [0, 0];
   private middle: Point = [0, 0];
-  private readonly fits = new Map<string, Fitted>();
+  private readonly fits = new Fits();
   private place = 0;
+  /** Whether paths are shown. */
+  private shown = false;
   private readonly names: Names;
   private inks!: Inks;
   private told: Told[] = [];
@@ -72,6 +75,7 @@ export class Plane implements Renderer {
     this.pen = new Pen(context);
     this.names = new Names(motion);
     this.followed = new Followed(motion);
+    this.stages = stagesOf(motion.scene);
     this.bounds = this.measure();
     const { low, high } = this.bounds;
     this.least = LEAST * Math.max(high[0] - low[0], high[1] - low[1]);
@@ -117,6 +121,14 @@ export class Plane implements Renderer {
     return this.names.drawn;
   }
 
+  unnamed(): string[] {
+    return this.names.left;
+  }
+
+  pointed(at: Point): string | null {
+    return pointed(this.motion, this.place, ([x, y]) => this.pixel(x, y), this.shown ? this.paths.map(({ trace, points }) => ({ name: trace.name, points: points.map(([x, y]) => this.pixel(x, y)) })) : [], at);
+  }
+
   scales(): Told[] {
     return this.told;
   }
@@ -135,6 +147,7 @@ export class Plane implements Renderer {
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
     this.inks = inks;
+    this.shown = options.paths !== 'none';
     const { pen } = this;
     const short = Math.min(width, height);
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, short, this.scale);
@@ -151,7 +164,7 @@ export class Plane implements Renderer {
     // boxes lie under the bodies that slide, slots on those that they are cut into
     scene.joints.forEach((joint) => this.box(joint));
     // what is large lies below
-    const shapes = scene.bodies.flatMap((body, index) => body.shapes.map((shape) => ({ depth: depth(shape), draw: () => this.shape(index, shape) })));
+    const shapes = scene.bodies.flatMap((body, index) => body.shapes.map((shape) => ({ depth: depth(shape) || this.stages.within[index]! * Number.MIN_VALUE, draw: () => this.shape(index, shape) })));
     const rods = scene.links.filter(({ kind }) => kind === 'rod').map((rod) => ({ depth: 0, draw: () => this.rod(rod) }));
     const bodies = [...shapes, ...rods].sort((a, b) => a.depth - b.depth);
     for (const behind of this.motion.behind) {
@@ -171,24 +184,14 @@ export class Plane implements Renderer {
     scene.joints.forEach((joint) => this.marks(joint));
     scene.joints.forEach((joint) => this.dashpot(joint));
     for (const { kind, a, b } of scene.links) if (kind === 'rod') for (const end of [a, b]) signs.pin(pen, 'revolute', this.point(end), false, inks);
-    if (options.names) this.names.draw(pen, place, ([x, y], at) => this.pixel(x, y, at), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind));
+    if (options.names) this.names.draw(pen, place, ([x, y], at) => this.pixel(x, y, at), [this.scale, ...this.shift], [width, height], inks, options.paths !== 'none');
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, this.bar(height), [width, height], inks);
   }
 
   /** How the mechanism and the arrows that are shown have room over the whole motion; the slider of their length moves nothing else. */
   private fitted(arrows: Set<Kind>, size: Point, short: number): Fitted {
-    const key = [...arrows, ...size, short].join();
-    if (this.fits.get(key)) return this.fits.get(key)!;
-    const tips = [...arrows].map((kind) => ({ kind, all: this.tips(kind) }));
-    const at = (metre: number): Tip[] => tips.flatMap(({ kind, all }) => {
-      const pixels = this.arrows.pixels(kind, FIRST, short, metre);
-      return all.map(({ at, reach }) => ({ at, reach: [reach[0] * pixels, reach[1] * pixels] }));
-    });
-    const found = fitted(this.bounds, at, size);
-    if (this.fits.size > FITS) this.fits.clear();
-    this.fits.set(key, found);
-    return found;
+    return this.fits.of([...arrows, ...size, short].join(), () => fitted(this.bounds, tipsOf(this.arrows, arrows, short, (kind) => this.tips(kind)), size));
   }
 
   /** Forces and rates over the motion, in their own unit, with the places at which they are drawn. */
@@ -319,13 +322,13 @@ export class Plane implements Renderer {
     switch (shape.kind) {
       case 'bar':
       case 'cylinder': {
-        const width = shape.kind === 'bar' ? (shape.width ?? 0) : 2 * shape.radius;
-        this.rounded(points([shape.from, shape.to]), Math.max(width * this.scale, BAR), fill, edge);
+        const width = shape.kind === 'bar' ? shape.width : 2 * shape.radius;
+        this.rounded(points([shape.from, shape.to]), Math.max((width ?? 0) * this.scale, this.bare(body)), fill, edge);
         break;
       }
       case 'hull': {
         const outline = hull(points(shape.points));
-        if (outline.length > 0) this.rounded(outline, BAR, outline.length > 2 ? this.paler(fill, 0.7) : fill, edge);
+        if (outline.length > 0) this.rounded(outline, outline.length > 2 ? BAR : this.bare(body), outline.length > 2 ? this.paler(fill, 0.7) : fill, edge);
         break;
       }
       case 'polygon':
@@ -351,6 +354,11 @@ export class Plane implements Renderer {
         pen.path([center, off(center, this.along(body, [1, 0]), radius, 0)]).stroke(edge, 1);
       }
     }
+  }
+
+  /** Width of a bar whose true one the model does not give, pixels: cylinders are seen around what slides in them. */
+  private bare(body: number): number {
+    return BAR * ROD ** this.stages.around[body]!;
   }
 
   /** A body with round corners about its points: a thick line in the colour of the edge, and a thinner one over it. */

@@ -124,7 +124,7 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
   const begun = study.table.reasons ? study.runs.filter(({ results }) => results).length : 1;
   const count = beside(plot, size, (name) => column(runs[0]!.results, name), curves, begun * shown.length);
   const first = runs[0]!.results;
-  const marked = !several && !plot.over && first.table.switches.length <= MOST_MARKED;
+  const marks = several || plot.over ? [] : marked(first, shown.map(({ name }) => name));
   const free = !plot.right && !plot.y?.range.some((end) => end !== null) && !plot.range.some((end) => end !== null);
   const plane = free && plot.path && curves.every((curve) => curve.unit === unit);
   const figure: Figure = {
@@ -132,12 +132,18 @@ function ofColumns(study: Study, plot: Plot): Drawable | null {
     y: (several || plot.beside.length > 0) && plot.show.length === 1 ? plot.show[0]! : '',
     curves,
     count,
-    breaks: marked ? first.table.switches.map((row) => (first.independent.values[row] ?? NaN) / size) : [],
+    breaks: marks.map((row) => (first.independent.values[row] ?? NaN) / size),
     equal: plane,
     ordered: plot.over === null,
     ...ranges(plot, size, (name) => column(first, name)),
   };
   return { name: plot.name, figure, moves: plot.over === null, size, points, runs: numbers };
+}
+
+/** Rows before switches at which curves show; none where their lines would cover the curves. */
+function marked(results: Results, names: string[]): number[] {
+  const rows = [...new Set(names.flatMap((name) => results.rows?.bends?.[name] ?? []))];
+  return rows.length > MOST_MARKED ? [] : rows;
 }
 
 function ofRuns(study: Study, plot: Plot): Drawable | null {

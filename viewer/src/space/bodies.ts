@@ -1,6 +1,7 @@
 // Faces of the bodies of a mechanism, each in the frame of its body.
 
 import type { Vector } from '../motion';
+import { ROD, stagesOf } from '../telescope';
 import type { Scene, Shape } from '../types';
 import { type Face, add, ball, box, face, scaled, sheet, tube, unit } from './vectors';
 
@@ -57,9 +58,10 @@ function pieces(all: Face[], longest: number): Face[] {
 /** Faces of all bodies, body by body. */
 export function bodies(scene: Scene, size: number, colors: (body: number) => Colors): Face[][] {
   const thin = 0.013 * size;
+  const { around } = stagesOf(scene);
   // a body of one point is shown by the joint there, if there is one
   const ends = scene.joints.filter(({ kind }) => kind !== 'free' && kind !== 'distance').flatMap(({ a, b }) => [a, b]);
   const same = (at: number[], point: number[]) => at.every((x, i) => Math.abs(x - point[i]!) <= 1e-6 * size);
   const hidden = (shape: Shape, body: number) => shape.kind === 'hull' && shape.points.length === 1 && ends.some((end) => end.body === body && same(end.at, shape.points[0]!));
-  return scene.bodies.map(({ shapes }, index) => pieces(shapes.filter((shape) => !hidden(shape, index)).flatMap((shape) => faces(shape, thin, colors(index))), 0.12 * size));
+  return scene.bodies.map(({ shapes }, index) => pieces(shapes.filter((shape) => !hidden(shape, index)).flatMap((shape) => faces(shape, thin * ROD ** around[index]!, colors(index))), 0.12 * size));
 }

@@ -5,8 +5,10 @@ import { Followed, LEAST } from '../follow';
 import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
 import { cylinder } from '../plane/cylinder';
+import { type Bounds, Fits, ROOM, type Tip, fitted, tipsOf } from '../plane/fit';
 import { Pen, type Point, toward } from '../plane/pen';
 import * as signs from '../plane/signs';
+import { pointed } from '../pointed';
 import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
@@ -23,6 +25,8 @@ const PATH = 400;
 const AXES = 90;
 /** Height of these, and the width of a drawing in which the mechanism stands above them, pixels. */
 const AXES_HEIGHT = 70;
+/** Room on each side of a picture beyond that which is left around all drawings, pixels. */
+const BESIDE = 11;
 const NARROW = 480;
 /** Joints whose second body slides on a guide of the first. */
 const SLIDES = ['slider', 'prismatic', 'cylindrical'];
@@ -42,7 +46,7 @@ class Space implements Renderer {
   private readonly floor: number;
   private readonly up: Vector;
   private readonly level: [Vector, Vector];
-  private readonly paths: { at: number[]; points: Vector[] }[];
+  private readonly paths: { name: string; at: number[]; points: Vector[] }[];
   /** Places over the motion, and the width and height that they take in the first view. */
   private seen: Vector[] = [];
   private extent: Point = [1, 1];
@@ -52,12 +56,17 @@ class Space implements Renderer {
   private zoomed = 1;
   private shift: Point = [0, 0];
   private place = 0;
+  /** Whether paths are shown. */
+  private shown = false;
   private right!: Vector;
   private above!: Vector;
   private toEye!: Vector;
   private scale = 1;
   private center: Point = [0, 0];
   private told: Told[] = [];
+  /** Directions of the first view, and how the mechanism and the arrows that are shown have room in it. */
+  private first: [Vector, Vector] = [[1, 0, 0], [0, 0, 1]];
+  private readonly fits = new Fits();
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
@@ -67,7 +76,7 @@ class Space implements Renderer {
     this.level = level;
     [this.turn, this.tilt] = [azimuth, elevation];
     const at = motion.sampled(PATH);
-    this.paths = motion.scene.traces.map((trace) => ({ at, points: at.map((place) => motion.world(trace, place)) }));
+    this.paths = motion.scene.traces.map((trace) => ({ name: trace.name, at, points: at.map((place) => motion.world(trace, place)) }));
     this.followed = new Followed(motion);
     this.measure();
     this.least = LEAST * this.size;
@@ -116,6 +125,14 @@ class Space implements Renderer {
     return this.names.drawn;
   }
 
+  unnamed(): string[] {
+    return this.names.left;
+  }
+
+  pointed(at: Point): string | null {
+    return pointed(this.motion, this.place, (seen) => this.pixel(seen), this.shown ? this.paths.map(({ name, points }) => ({ name, points: points.map((p) => this.pixel(p)) })) : [], at);
+  }
+
   scales(): Told[] {
     return this.told;
   }
@@ -126,12 +143,17 @@ class Space implements Renderer {
 
   draw(place: number, options: Options, inks: Inks, width: number, height: number): void {
     this.place = place;
+    this.shown = options.paths !== 'none';
     this.now = add(this.middle, this.followed.base(place));
     const { pen, motion } = this;
     const pixels = (kind: Kind) => this.arrows.pixels(kind, options.scale, Math.min(width, height), this.scale);
-    this.look(width, height, 0);
+    const look = (foot: number) => {
+      this.look();
+      this.fitted(options.arrows, [width, height], foot);
+    };
+    look(0);
     const scales = scalesHeight(pen, this.arrows, options.arrows, pixels, AXES, [width, height]);
-    this.look(width, height, width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
+    look(width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
     pen.on.clearRect(0, 0, width, height);
     this.ground(inks);
     motion.scene.joints.filter(signs.seen).forEach((joint) => this.bearing(joint, inks));
@@ -209,15 +231,33 @@ class Space implements Renderer {
   }
 
   /** Directions of the picture from those of the eye. */
-  private look(width: number, height: number, foot: number): void {
+  private look(): void {
     const [x, y] = this.level;
     const level = add(scaled(x, Math.cos(this.turn)), y, Math.sin(this.turn));
     this.right = add(scaled(x, -Math.sin(this.turn)), y, Math.cos(this.turn));
     this.toEye = unit(add(scaled(level, Math.cos(this.tilt)), this.up, Math.sin(this.tilt)));
     this.above = cross(this.toEye, this.right);
+  }
+
+  /** How the mechanism and the arrows that are shown have room over the whole motion in the first view, with `foot` pixels below them. */
+  private fitted(arrows: Set<Kind>, [width, height]: Point, foot: number): void {
     // the scales of arrows have room of their own below the mechanism
-    this.scale = Math.min((width - 90) / this.extent[0], (height - Math.max(90, foot + 45)) / this.extent[1]) * this.zoomed;
-    this.center = [width / 2, (height - Math.max(0, foot - 45)) / 2];
+    const size: Point = [width - 2 * BESIDE, height - BESIDE - Math.max(BESIDE, foot - ROOM)];
+    const short = Math.min(width, height);
+    const [w, h] = this.extent;
+    const bounds: Bounds = { low: [-w / 2, -h / 2], high: [w / 2, h / 2] };
+    const { scale, middle } = this.fits.of([...arrows, ...size, short].join(), () => fitted(bounds, tipsOf(this.arrows, arrows, short, (kind) => this.tips(kind)), size));
+    this.scale = scale * this.zoomed;
+    this.center = [middle[0] + BESIDE, middle[1] + BESIDE];
+  }
+
+  /** Forces and rates over the motion, in their own unit, with the places at which they are drawn, as they are seen in the first view. */
+  private tips(kind: Kind): Tip[] {
+    const flat = (v: Vector): Point => [dot(v, this.first[0]), dot(v, this.first[1])];
+    return this.motion.sampled(LOOKS).flatMap((place) => {
+      const middle = add(this.middle, this.followed.base(place));
+      return this.arrows.at(kind, place).filter(({ torque }) => !torque).map(({ from, along }): Tip => ({ at: flat(add(from, middle, -1)), reach: flat(along) }));
+    });
   }
 
   /** Where a point is seen, with its middle as it is at the present place of the motion. */
@@ -246,7 +286,9 @@ class Space implements Renderer {
 
   /** The middle and the size of the first view. */
   private centre(): void {
-    this.look(100, 100, 0);
+    this.look();
+    this.first = [this.right, this.above];
+    this.fits.clear();
     const range = (along: Vector): Point => this.seen.reduce<Point>(([low, high], at) => [Math.min(low, dot(at, along)), Math.max(high, dot(at, along))], [Infinity, -Infinity]);
     const [across, upwards] = [range(this.right), range(this.above)];
     const least = 0.05 * this.size;

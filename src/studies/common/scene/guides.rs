@@ -12,6 +12,9 @@ const SLENDER: f64 = 0.25;
 /// By how much a cylinder must be thicker than its rod to be told from it.
 const THICKER: f64 = 1.01;
 
+/// What a rod without width seems to be off its axis, as part of its length.
+const ROUND_OFF: f64 = 1e-9;
+
 /// Where the eye is in the first view of a picture in space, beside which guides stand.
 const EYE: [f64; 3] = [1.0, 1.0, 1.0];
 
@@ -49,7 +52,8 @@ fn telescope(scene: &Scene, joint: &Joint) -> Option<Joint> {
     let stops = |by: f64| joint.stops.map(|stop| stop.map(|s| s + by));
     let along =
         |place: &Place, axis: &[f64], s: f64| Place { body: place.body, at: place.at.iter().zip(axis).map(|(x, e)| x + s * e).collect() };
-    if second.radius > THICKER * first.radius {
+    let round_off = ROUND_OFF * (first.ends[1] - first.ends[0]);
+    if second.radius > THICKER * first.radius + round_off {
         let mouth = end(second, !ahead);
         return Some(Joint {
             b: along(&joint.b, &own, mouth),
