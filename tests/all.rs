@@ -51,6 +51,7 @@ mod rises;
 mod scales;
 mod scenes;
 mod singular;
+mod solids;
 mod solve;
 mod statics;
 mod stored;

@@ -31,7 +31,7 @@ pub use gauge::{Along, Gauge, Measured, Placed, Reading, Relative};
 pub use group::Group;
 pub use joint::{Joint, axis_rotation};
 pub use loops::describe_loop;
-pub use outline::Outline;
+pub use outline::{Outline, Solid, SolidForm};
 pub use parts::{Attached, Body, Mechanism, TreeNode};
 pub use row::{Function, Row, RowKind, RowOwner};
 pub(crate) use sets::Sets;

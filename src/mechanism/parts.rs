@@ -3,7 +3,7 @@
 use super::step::multiply_quaternion;
 use super::{
     Buffer, Contact, ContactLaw, Drive, Effort, Function, Gauge, Group, Joint, Orientation, Outline, PointLoad, Pressing, Rotor, Row,
-    RowKind, RowOwner, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
+    RowKind, RowOwner, Solid, StagedProgram, Start, Step, Stop, Stretch, StretchOf,
 };
 use crate::expression::LookupTable;
 use crate::geometry::{MassProperties, Pose, Space};
@@ -28,6 +28,8 @@ pub struct Body<G: Space> {
     pub drawn: Vec<G::Vector>,
     /// Its shape, if the model gives one.
     pub outline: Option<Outline>,
+    /// Solids that it is drawn as.
+    pub solids: Box<[Solid]>,
     /// The last of the velocity columns that move it; none for what does not move. See [`Mechanism::path`].
     pub column: Option<usize>,
 }
@@ -430,6 +432,7 @@ impl<G: Space> Body<G> {
             points: Vec::new(),
             drawn: Vec::new(),
             outline: None,
+            solids: Box::default(),
             column: self.column,
         }
     }

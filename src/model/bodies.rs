@@ -40,6 +40,8 @@ pub struct Body {
     pub drawn: Vec<Vec<Id>>,
     /// The circle that it is drawn as.
     pub circle: Option<Circle>,
+    /// Spatial: the solids that it is drawn as.
+    pub solids: Vec<Solid>,
     /// Points: 0 `origin`, 1 `com`, then those of the shape (`start`, `end` of a bar), then the user's.
     pub points: Vec<Point>,
     /// Point masses and rotors.
@@ -75,6 +77,29 @@ pub struct Circle {
     pub at: Vec<Id>,
     /// Spatial: what it is round about, body frame; z if it has no components.
     pub axis: Vec<Id>,
+}
+
+/// A solid that a body in space is drawn as.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// What it is.
+    pub form: SolidForm,
+    /// Its middle, body frame, m; the origin if it has no components.
+    pub at: Vec<Id>,
+    /// How its own axes stand in the body frame: roll, pitch, yaw, rad; as those of the body if omitted.
+    pub rpy: Option<[Id; 3]>,
+}
+
+/// Solids with their sizes, m.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum SolidForm {
+    /// A box with sizes along its own axes.
+    Box { size: [Id; 3] },
+    /// A cylinder about its own z axis.
+    Cylinder { radius: Id, length: Id },
+    /// A ball.
+    Ball { radius: Id },
 }
 
 /// A shape with its sizes, m, and mass, kg.

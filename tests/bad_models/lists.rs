@@ -16,6 +16,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "joint-by-another-word",
             "spring-by-another-word",
             "study-key-by-another-word",
+            "drawn-solids",
+            "drawn-solid-in-the-plane",
             "point-without-its-body",
             "misspelt-joint-option",
             "misspelt-in-study",

@@ -1,11 +1,11 @@
 //! Tables, masses and points.
 
 use super::super::inertia;
-use super::super::{Attached, Body, Outline};
+use super::super::{Attached, Body, Outline, Solid, SolidForm};
 use super::builder::Builder;
 use crate::expression::{Id, LookupTable, TableError};
 use crate::geometry::{MassProperties, Space};
-use crate::model::{PointAt, PointRef, Shape, roll_pitch_yaw};
+use crate::model::{self, PointAt, PointRef, Shape, roll_pitch_yaw};
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
@@ -89,9 +89,33 @@ impl<G: Space> Builder<'_, G> {
                 Outline::Disc { center: self.triple(&circle.at, place), axis, radius, thickness: 0.0 }
             });
             let outline = round.or(outline);
+            let solids = body.solids.iter().map(|solid| self.solid(solid, place)).collect();
             let drawn = body.drawn.iter().map(|at| G::vector(&self.triple(at, place))).collect();
-            self.mechanism.bodies.push(Body { name: body.name.clone(), mass, bare, attached, points, drawn, outline, column: None });
+            self.mechanism.bodies.push(Body {
+                name: body.name.clone(),
+                mass,
+                bare,
+                attached,
+                points,
+                drawn,
+                outline,
+                solids,
+                column: None,
+            });
         }
+    }
+
+    fn solid(&mut self, solid: &model::Solid, place: &str) -> Solid {
+        let form = match &solid.form {
+            model::SolidForm::Box { size } => SolidForm::Box { size: size.map(|id| self.length(id, place, "the size is")) },
+            model::SolidForm::Cylinder { radius, length } => SolidForm::Cylinder {
+                radius: self.length(*radius, place, "the radius is"),
+                length: self.length(*length, place, "the length is"),
+            },
+            model::SolidForm::Ball { radius } => SolidForm::Ball { radius: self.length(*radius, place, "the radius is") },
+        };
+        let angles = solid.rpy.map_or([0.0; 3], |rpy| rpy.map(|angle| self.number(angle, place)));
+        Solid { form, at: self.triple(&solid.at, place), turned: roll_pitch_yaw(angles) }
     }
 
     /// Inertia figures Ixx, Iyy, Izz, Ixy, Ixz, Iyz from 1, 3 or 6 numbers.

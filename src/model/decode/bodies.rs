@@ -1,10 +1,11 @@
 //! The ground and the bodies: shapes, figures, points, attached masses.
 
 use super::decoder::Decoder;
+use super::drawn::DRAWN;
 use crate::expression::{Dimension, Id};
 use crate::model::bodies::{self, Attached, Body, Point, PointAt};
 use crate::model::fault::{At, Spot};
-use crate::model::fields::{DIRECTION, FIGURES, Keys, LENGTH, MASS, POSITION, ROLL_PITCH_YAW, Shape, Size, Want, at_most_one, one_of};
+use crate::model::fields::{FIGURES, Keys, LENGTH, MASS, POSITION, ROLL_PITCH_YAW, Shape, Size, Want, at_most_one, one_of};
 use crate::model::keys::{Entry, keys};
 use crate::model::merge::Node;
 use crate::model::names::Entity;
@@ -29,8 +30,7 @@ keys! {
         inertia: may FIGURES, "Inertia about the centre of mass: a number, `[Ixx, Iyy, Izz]`, or with `Ixy, Ixz, Iyz`.";
         com: may POSITION, "Centre of mass in the body frame.";
         points: may Shape::Named(Keys::Name, "a point", &PLACED), "Points in the body frame.";
-        drawn: may Shape::Either(&[Shape::Map(&CIRCLE), Shape::List(&POSITION, Size::AtLeast(1))]),
-            "How the body looks in drawings, body frame: points that outline it, or a circle.";
+        drawn: may DRAWN, "How the body looks in drawings, body frame: points that outline it, a circle, or solids.";
         attached: may Shape::Named(Keys::Name, "an attached mass", &Shape::Map(&ATTACHED)), "Point masses and rotors on the body.";
         fictitious: may Shape::Flag,
             "Allows an inertia that no real body has, as robots from data sheets do; moments below 0 stay refused.";
@@ -42,15 +42,6 @@ keys! {
     pub(crate) FRAME = FrameKeys "a point with axes of its own" [] {
         at: need POSITION, "Place in the body frame.";
         rpy: may ROLL_PITCH_YAW, "Spatial: orientation of the point's axes in the body: turned about x, then y, then z.";
-    }
-}
-
-keys! {
-    /// A circle as outline.
-    CIRCLE = CircleKeys "a circle" [] {
-        circle: need LENGTH, "Radius.";
-        at: may POSITION, "Centre in the body frame; its origin if omitted.";
-        axis: may DIRECTION, "Spatial: what it is round about, body frame; z if omitted.";
     }
 }
 
@@ -120,6 +111,7 @@ impl<'n> Decoder<'n> {
             fictitious: false,
             drawn: Vec::new(),
             circle: None,
+            solids: Vec::new(),
             points,
             attached: Vec::new(),
             place: "ground".to_owned(),
@@ -165,18 +157,8 @@ impl<'n> Decoder<'n> {
         let drawn = keys.drawn.items().iter().enumerate();
         let drawn =
             drawn.filter_map(|(i, item)| self.space_vector(Some(Node::Plain(item)), &drawn_at.index(i), Dimension::LENGTH)).collect();
-        let circle = keys.drawn.node.filter(|node| node.is_map()).and_then(|node| {
-            let circle = CircleKeys::of(node);
-            let radius = self.size(circle.circle, &drawn_at, "the radius")?;
-            let at = self.read_vector(circle.at, &drawn_at, Dimension::LENGTH).unwrap_or_default();
-            if circle.axis.given() && self.name_space.components() == 2 {
-                let fault = self.fault("spatial-only", &drawn_at.key(circle.axis), "an axis of a circle in the plane", "no `axis`");
-                fault.spot = Spot::Key;
-                fault.help = Some("remove it: in the plane circles are round about z".to_owned());
-            }
-            let axis = self.read_vector(circle.axis, &drawn_at, Dimension::NONE).unwrap_or_default();
-            Some(bodies::Circle { radius, at, axis })
-        });
+        let circle = self.circle(keys.drawn, at);
+        let solids = self.solids(keys.drawn, at);
         Body {
             name: name.to_owned(),
             shape,
@@ -185,6 +167,7 @@ impl<'n> Decoder<'n> {
             fictitious,
             drawn,
             circle,
+            solids,
             com: self.read_vector(keys.com, at, Dimension::LENGTH),
             points,
             attached,

@@ -6,6 +6,7 @@ mod checks;
 mod clutches;
 mod columns;
 mod decoder;
+mod drawn;
 mod events;
 mod forces;
 mod frame;

@@ -20,7 +20,7 @@ fn walk(translation: &Translation, path: String, value: &Value, faults: &mut Vec
                 .iter()
                 .for_each(|(key, value)| walk(translation, format!("{path}.{}", key.as_str().unwrap_or_default()), value, faults));
         }
-        // one fault for a list of points, whose numbers come from the same element
+        // one fault for a list, whose numbers come from the same element
         value if infinite(value) => faults.push(fault(translation, &path)),
         _ => {}
     }
@@ -30,6 +30,7 @@ fn walk(translation: &Translation, path: String, value: &Value, faults: &mut Vec
 fn infinite(value: &Value) -> bool {
     match value {
         Value::Sequence(items) => items.iter().any(infinite),
+        Value::Mapping(entries) => entries.values().any(infinite),
         Value::Number(x) => x.as_f64().is_some_and(|x| !x.is_finite()),
         // a name has no space
         Value::String(text) => ["inf ", "-inf ", "NaN "].iter().any(|head| text.starts_with(head)),

@@ -318,9 +318,9 @@ impl Work<'_, '_, '_> {
         if !own.is_empty() {
             out.insert("points".into(), own.into());
         }
-        let outline = self.outline(link);
-        if !outline.is_empty() {
-            out.insert("drawn".into(), Value::Sequence(outline));
+        let solids = self.solids(link);
+        if !solids.is_empty() {
+            out.insert("drawn".into(), Value::Sequence(solids));
         }
         out
     }
@@ -344,30 +344,28 @@ impl Work<'_, '_, '_> {
         }
     }
 
-    /// Points that outline the visual shapes, in the frame of the link.
-    fn outline(&mut self, link: &Link<'_, '_>) -> Vec<Value> {
-        let mut points = Vec::new();
+    /// The visual shapes as solids, in the frame of the link.
+    fn solids(&mut self, link: &Link<'_, '_>) -> Vec<Value> {
+        let mut solids = Vec::new();
         for visual in &link.data.visual {
             let at = opening(element(link.node, "visual").unwrap_or(link.node)).start;
-            let half = match &visual.geometry {
-                Geometry::Box { size } => size.0.map(|x| 0.5 * x),
-                Geometry::Cylinder { radius, length } => [*radius, *radius, 0.5 * length],
-                Geometry::Capsule { radius, length } => [*radius, *radius, 0.5 * length + radius],
-                Geometry::Sphere { radius } => [*radius; 3],
-                Geometry::Mesh { filename, .. } => {
-                    self.notes.about("meshes that are not drawn: {}", filename.clone(), at);
-                    continue;
+            let origin = (visual.origin.xyz.0, visual.origin.rpy.0);
+            match &visual.geometry {
+                Geometry::Box { size } => solids.push(solid(&[("box", vector(size.0))], origin)),
+                Geometry::Cylinder { radius, length } => solids.push(cylinder(*radius, *length, origin)),
+                Geometry::Capsule { radius, length } => {
+                    solids.push(cylinder(*radius, *length, origin));
+                    let turned = roll_pitch_yaw(origin.1);
+                    solids.extend([-0.5, 0.5].map(|end| {
+                        let moved = apply(&turned, [0.0, 0.0, end * length]);
+                        solid(&[("ball", quantity(*radius, "m"))], (std::array::from_fn(|i| origin.0[i] + moved[i]), [0.0; 3]))
+                    }));
                 }
-            };
-            let round = !matches!(visual.geometry, Geometry::Box { .. });
-            let r = roll_pitch_yaw(visual.origin.rpy.0);
-            for corner in corners(half, round, matches!(visual.geometry, Geometry::Sphere { .. })) {
-                let moved = apply(&r, corner);
-                // a drawing needs no more than a micrometre
-                points.push(vector(std::array::from_fn(|i| ((moved[i] + visual.origin.xyz.0[i]) * 1e6).round() / 1e6)));
+                Geometry::Sphere { radius } => solids.push(solid(&[("ball", quantity(*radius, "m"))], (origin.0, [0.0; 3]))),
+                Geometry::Mesh { filename, .. } => self.notes.about("meshes that are not drawn: {}", filename.clone(), at),
             }
         }
-        points
+        solids
     }
 
     /// q = multiplier · master + offset, as an expression that stays 0.
@@ -453,15 +451,22 @@ fn stops(joint: &Joint<'_, '_>, turns: bool, low: f64, high: f64) -> Mapping {
     limits
 }
 
-/// Corners of a box, an octagonal prism for round things, or for a ball the ends of three octagons.
-fn corners(half: [f64; 3], round: bool, ball: bool) -> Vec<[f64; 3]> {
-    let [a, b, c] = half;
-    if !round {
-        return (0..8).map(|k| [(1, a), (2, b), (4, c)].map(|(bit, x)| if k & bit == 0 { -x } else { x })).collect();
+/// A cylinder as it is drawn, about its own z axis, with its middle and its roll, pitch and yaw.
+fn cylinder(radius: f64, length: f64, origin: ([f64; 3], [f64; 3])) -> Value {
+    solid(&[("cylinder", quantity(radius, "m")), ("length", quantity(length, "m"))], origin)
+}
+
+/// A solid as it is drawn, with its middle and its roll, pitch and yaw.
+fn solid(sizes: &[(&str, Value)], (at, rpy): ([f64; 3], [f64; 3])) -> Value {
+    let mut out = Mapping::new();
+    sizes.iter().for_each(|(key, size)| _ = out.insert((*key).into(), size.clone()));
+    // a drawing needs no more than a micrometre
+    let at = at.map(|x| (x * 1e6).round() / 1e6);
+    if at != [0.0; 3] {
+        out.insert("at".into(), vector(at));
     }
-    let circle = (0..8).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos());
-    if ball {
-        return circle.flat_map(|(s, k)| [[a * k, a * s, 0.0], [a * k, 0.0, a * s], [0.0, a * k, a * s]]).collect();
+    if rpy != [0.0; 3] {
+        out.insert("rpy".into(), Value::Sequence(rpy.map(|angle| quantity(angle, "rad")).to_vec()));
     }
-    circle.flat_map(|(s, k)| [[a * k, b * s, -c], [a * k, b * s, c]]).collect()
+    out.into()
 }

@@ -1,7 +1,7 @@
 //! Places on bodies that a picture shows.
 
 use crate::geometry::{Pose, Space};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Solid};
 use crate::results::scene::Place;
 
 /// A vector as 2 or 3 numbers.
@@ -36,7 +36,8 @@ pub(super) fn of_body<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) 
 fn all<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<(usize, G::Vector)> {
     let moving = (1..mechanism.bodies.len()).flat_map(|body| {
         let drawn = mechanism.bodies[body].drawn.iter().copied();
-        of_body(mechanism, body).into_iter().chain(drawn).map(move |at| (body, at))
+        let solids = mechanism.bodies[body].solids.iter().flat_map(Solid::corners).map(|corner| G::vector(&corner));
+        of_body(mechanism, body).into_iter().chain(drawn).chain(solids).map(move |at| (body, at))
     });
     let grounded = mechanism.joints.iter().flat_map(|joint| [joint.a, joint.b]).filter(|(body, _)| *body == 0);
     grounded.chain(moving).collect()

@@ -18,8 +18,9 @@ pub(super) fn outline_shafts<G: Space>(mechanism: &Mechanism<G>, scene: &mut Sce
     if scene.dimensions != 3 || scene.frames.count() == 0 {
         return;
     }
-    // a block or beam shows what it is
+    // a block, beam or solid shows what it is
     let sized = |body: usize| match mechanism.bodies[body].outline {
+        _ if !mechanism.bodies[body].solids.is_empty() => true,
         Some(Outline::Bar { width, height, .. }) => width.max(height) > 0.0,
         Some(Outline::Block { .. } | Outline::Ball { .. }) => true,
         Some(Outline::Disc { .. }) | None => false,

@@ -2,7 +2,7 @@
 
 use super::places::{numbers, of_body};
 use crate::geometry::Space;
-use crate::mechanism::{Mechanism, Outline, axis_rotation};
+use crate::mechanism::{self, Mechanism, Outline, Solid, SolidForm, axis_rotation};
 use crate::model::Model;
 use crate::results::scene::{Body, Shape};
 
@@ -52,7 +52,7 @@ fn is_an_arm<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> bool 
     let body = &mechanism.bodies[index];
     let [only] = of_body(mechanism, index)[..] else { return false };
     let away = only - body.bare.com;
-    body.drawn.is_empty() && G::dot(away, away).sqrt() > APART * mechanism.size()
+    body.drawn.is_empty() && body.solids.is_empty() && G::dot(away, away).sqrt() > APART * mechanism.size()
 }
 
 /// What leads from the shapes of a body to a point mass beside them.
@@ -88,6 +88,9 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
     let (body, mut places) = (&mechanism.bodies[index], of_body(mechanism, index));
     let all = |places: &[G::Vector]| places.iter().map(|p| numbers::<G>(*p)).collect::<Vec<_>>();
     let drawn = all(&body.drawn);
+    if !body.solids.is_empty() {
+        return solids(body, &all(&places), drawn);
+    }
     let outlined = G::VECTOR == 2 && is_simple(&drawn);
     if !outlined {
         places.extend(&body.drawn);
@@ -114,6 +117,34 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
             all(&outside).into_iter().map(leg).chain([own]).collect()
         }
         (own, _) => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
+    }
+}
+
+/// The solids of a body, the hull of points that outline it beside them, and bars from the nearest of them to places outside of all.
+fn solids<G: Space>(body: &mechanism::Body<G>, places: &[Vec<f64>], drawn: Vec<Vec<f64>>) -> Vec<Shape> {
+    let triple = |at: &[f64]| [0, 1, 2].map(|i| at.get(i).copied().unwrap_or(0.0));
+    let far = |solid: &Solid, at: [f64; 3]| (0..3).map(|i| (solid.at[i] - at[i]).powi(2)).sum::<f64>();
+    let bar = |at: &Vec<f64>| {
+        let end = triple(at);
+        let nearest = body.solids.iter().min_by(|a, b| far(a, end).total_cmp(&far(b, end)))?;
+        Some(Shape::Bar { from: nearest.at.to_vec(), to: at.clone(), width: None })
+    };
+    let outside = places.iter().filter(|at| !body.solids.iter().any(|solid| solid.holds(triple(at))));
+    let outline = (!drawn.is_empty()).then_some(Shape::Hull { points: drawn });
+    body.solids.iter().map(solid_shape).chain(outline).chain(outside.filter_map(bar)).collect()
+}
+
+/// A solid in the frame of its body.
+fn solid_shape(solid: &Solid) -> Shape {
+    let upright = (0..3).all(|i| (0..3).all(|k| solid.turned[i][k] == f64::from(u8::from(i == k))));
+    match solid.form {
+        SolidForm::Box { size } if upright => Shape::Box { center: solid.at.to_vec(), size: size.to_vec() },
+        SolidForm::Box { .. } => Shape::Hull { points: solid.corners().map(|corner| corner.to_vec()).to_vec() },
+        SolidForm::Cylinder { radius, length } => {
+            let [from, to] = [-0.5, 0.5].map(|part| solid.point([0.0, 0.0, part * length]).to_vec());
+            Shape::Cylinder { from, to, radius }
+        }
+        SolidForm::Ball { radius } => Shape::Sphere { center: solid.at.to_vec(), radius },
     }
 }
 
