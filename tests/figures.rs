@@ -409,6 +409,11 @@ studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }} }} }}
         let width = |name: &str| if let FormKind::Bar { width, .. } = form(name).kind { Some(width) } else { None };
         assert_eq!([width("barrel"), width("rod")], [Some(Width::Drawn(0)), Some(Width::Drawn(1))], "{angle}");
         assert!(form("barrel").depth > form("rod").depth && form("rod").depth == 0.0, "{angle}");
+        // the arrow of what drives it shows where the rod goes
+        let slide = drawing.joints.iter().find(|joint| joint.name == "S").expect("the slide").poses[0];
+        let (sin, cos) = angle.trim_end_matches(" deg").parse::<f64>().expect("an angle").to_radians().sin_cos();
+        let ahead = slide.along[0] * cos + slide.along[1] * sin;
+        assert!(slide.sense * ahead > 0.99, "{angle}: {slide:?}");
     }
 }
 

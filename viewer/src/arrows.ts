@@ -32,6 +32,9 @@ const SPECKS = 10;
 /** Places at which the largest arrow is looked for. */
 const LOOKS = 90;
 
+/** Joints whose two points need not be at one place. */
+const SLIDES = ['slider', 'prismatic', 'cylindrical', 'screw', 'pin-in-slot', 'planar', 'distance'];
+
 export class Arrows {
   private readonly largest = new Map<Kind | Turning, number>();
   private readonly moving: Place[];
@@ -52,11 +55,13 @@ export class Arrows {
     };
     this.forces = [...arrows, ...joints.flatMap(told)];
     const seen = new Set<string>();
-    const fresh = ({ body, at }: Place) => {
-      const point = this.motion.world({ body, at }, this.motion.from).map((x) => x.toFixed(6)).join();
+    const fresh = ({ body, at, apart }: Place & { apart?: boolean }) => {
+      const point = this.motion.world({ body, at }, this.motion.from).map((x) => x.toFixed(6)).join() + (apart ? ` ${body}` : '');
       return body !== 0 && !seen.has(point) && seen.add(point);
     };
-    this.moving = [...joints.flatMap(({ a, b }) => (a.body === 0 || b.body === 0 ? (a.body === 0 ? [b] : [a]) : [a])), ...traces].filter(fresh);
+    // both sides of a slide, which move apart
+    const ends = ({ kind, a, b }: Scene['joints'][number]) => (SLIDES.includes(kind) ? [a, b].map((end) => ({ ...end, apart: true })) : [a.body === 0 ? b : a]);
+    this.moving = [...joints.flatMap(ends), ...traces].filter(fresh);
   }
 
   /** Kinds that there are. */

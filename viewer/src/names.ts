@@ -53,8 +53,8 @@ const SIDES = 16;
 const NEAR = 8;
 /** The side of a name that lies on its body. */
 const ON = 16;
-/** How bad it is, at a place of the motion, to meet a name, the edge of the picture or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
-const COST = { name: 20, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
+/** How bad it is, at a place of the motion, to meet a name (for that of a joint more), the edge of the picture or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
+const COST = { name: 10, joints: 20, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
 /** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
 const NEXT = 0.1;
@@ -282,7 +282,7 @@ export class Names {
       const free = boxOn(side, own, group);
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
-      for (const boxes of taken.values()) if (overlap(box, boxes[k]!, 1)) sum += COST.name;
+      for (const boxes of taken.values()) if (overlap(box, boxes[k]!, 1)) sum += group.other ? COST.name : COST.joints;
       if (this.inSpace && group.bodies.length > 0) sum += COST.over * this.seenParts.filter((part) => !group.bodies.includes(part.body) && covers(part, k, box)).length;
       const away = toBox(own, box).far;
       for (const { points } of this.groups) {

@@ -3,6 +3,7 @@
 use super::mesh::{Mesh, V, plus};
 use super::solids::{Outline, around};
 use crate::output::outlines::hull;
+use crate::output::posed::forms::faces_of;
 use crate::results::Scene;
 use crate::results::scene::{Place, Shape, rim, wheel};
 
@@ -129,6 +130,11 @@ impl<'a> Builder<'a> {
                 if let [from, to] = places[..] {
                     return mesh.tube(from, to, radius);
                 }
+                // what is solid has its faces, as in drawings
+                let faces = faces_of(points);
+                if faces.len() > 2 {
+                    return faces.iter().for_each(|face| mesh.face(&face.iter().map(|k| places[*k]).collect::<Vec<V>>()));
+                }
                 let middle = std::array::from_fn(|i| places.iter().map(|p| p[i]).sum::<f64>() / places.len() as f64);
                 places.iter().for_each(|p| mesh.tube(middle, *p, radius));
                 mesh.ball(middle, radius);
@@ -173,5 +179,22 @@ fn points(shape: &Shape) -> Vec<&Vec<f64>> {
         | Shape::Box { center: at, .. }
         | Shape::Sphere { center: at, .. }
         | Shape::Mass { at, .. } => vec![at],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_solid_keeps_its_size() {
+        let scene = Scene { dimensions: 3, ..Scene::default() };
+        let corner = |k: usize| [0, 1, 2].map(|i| [0.2, 0.1, 0.05][i] * if k >> i & 1 == 0 { -0.5 } else { 0.5 }).to_vec();
+        let (sin, cos) = 0.5_f64.sin_cos();
+        let turned = |p: Vec<f64>| vec![cos * p[0] - sin * p[1], sin * p[0] + cos * p[1], p[2]];
+        let mut mesh = Mesh::default();
+        Builder { scene: &scene, size: 1.0 }.solid(&mut mesh, &Shape::Hull { points: (0..8).map(corner).map(turned).collect() });
+        assert_eq!((mesh.positions.len(), mesh.indices.len()), (24, 36));
+        assert!(mesh.positions.iter().all(|p| (p[2].abs() - 0.025).abs() < 1e-12 && p[0].hypot(p[1]) < 0.1119));
     }
 }

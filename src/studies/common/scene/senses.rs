@@ -26,7 +26,10 @@ pub(super) fn tell<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>, 
         let other_way = scene.dimensions == 2 && joint.kind == "revolute" && on_ground(mechanism, case.model.drivers[driver].joint);
         laws.get(driver).map(|sense| if other_way { 0.0 - sense } else { *sense })
     };
-    let told = |joint: &Joint| if joint.driven { of_driver(joint).unwrap_or_else(|| by_frames(scene, joint)) } else { 0.0 };
+    // of a cylinder, the second body, it is its rod that is seen to move
+    let seen = |joint: &Joint| if joint.telescopes { -1.0 } else { 1.0 };
+    let told =
+        |joint: &Joint| if joint.driven { seen(joint) * of_driver(joint).unwrap_or_else(|| by_frames(scene, joint)) + 0.0 } else { 0.0 };
     let senses: Vec<f64> = scene.joints.iter().map(told).collect();
     scene.joints.iter_mut().zip(senses).for_each(|(joint, sense)| joint.sense = sense);
 }
