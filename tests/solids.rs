@@ -53,6 +53,26 @@ studies: { turn: { dynamics: { until: 1 s, every: 0.5 s } } }
 }
 
 #[test]
+fn solids_without_size_are_left_out_and_flat_ones_are_flat() {
+    let text = "grashof: 1
+name: arm
+space: spatial
+gravity: none
+parameters: { nothing: 0 m }
+bodies:
+  arm:
+    mass: 1 kg
+    inertia: 1 kg m^2
+    drawn: [{ ball: nothing }, { cylinder: 0 m, length: 1 m }, { box: [0, 0, 0] }, { cylinder: 1 m, length: nothing, rpy: [0, 90 deg, 0] }]
+joints: { A: { revolute: [ground, arm.origin], axis: [0, 0, 1] } }
+studies: { turn: { dynamics: { until: 1 s, every: 0.5 s } } }
+";
+    let all = shapes(text, "turn", "arm");
+    let [Shape::Disc { radius: 1.0, axis: Some(axis), .. }] = &all[..] else { panic!("{all:?}") };
+    assert!(near(axis, [1.0, 0.0, 0.0]), "{all:?}");
+}
+
+#[test]
 fn links_of_a_robot_are_drawn_as_their_visuals() {
     let link = |name: &str, visual: &str| {
         let inertial = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";

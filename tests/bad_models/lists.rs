@@ -17,6 +17,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "spring-by-another-word",
             "study-key-by-another-word",
             "drawn-solids",
+            "drawn-solids-and-points",
             "drawn-solid-in-the-plane",
             "point-without-its-body",
             "misspelt-joint-option",

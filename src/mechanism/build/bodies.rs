@@ -107,12 +107,11 @@ impl<G: Space> Builder<'_, G> {
 
     fn solid(&mut self, solid: &model::Solid, place: &str) -> Solid {
         let form = match &solid.form {
-            model::SolidForm::Box { size } => SolidForm::Box { size: size.map(|id| self.length(id, place, "the size is")) },
-            model::SolidForm::Cylinder { radius, length } => SolidForm::Cylinder {
-                radius: self.length(*radius, place, "the radius is"),
-                length: self.length(*length, place, "the length is"),
-            },
-            model::SolidForm::Ball { radius } => SolidForm::Ball { radius: self.length(*radius, place, "the radius is") },
+            model::SolidForm::Box { size } => SolidForm::Box { size: size.map(|id| self.number(id, place)) },
+            model::SolidForm::Cylinder { radius, length } => {
+                SolidForm::Cylinder { radius: self.number(*radius, place), length: self.number(*length, place) }
+            }
+            model::SolidForm::Ball { radius } => SolidForm::Ball { radius: self.number(*radius, place) },
         };
         let angles = solid.rpy.map_or([0.0; 3], |rpy| rpy.map(|angle| self.number(angle, place)));
         Solid { form, at: self.triple(&solid.at, place), turned: roll_pitch_yaw(angles) }

@@ -30,7 +30,7 @@ keys! {
     }
 }
 
-/// Points, a circle, or solids and points.
+/// Points, a circle, or solids.
 pub(super) const DRAWN: Shape =
     Shape::Either(&[Shape::Map(&CIRCLE), Shape::List(&Shape::Either(&[POSITION, Shape::Map(&SOLID)]), Size::AtLeast(1))]);
 
@@ -53,8 +53,12 @@ impl<'n> Decoder<'n> {
     /// The solids that a body is drawn as.
     pub(super) fn solids(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Vec<Solid> {
         let at = at.key(entry);
-        let items = entry.items().iter().map(Node::Plain).enumerate().filter(|(_, item)| item.is_map());
-        items.filter_map(|(i, item)| self.solid(item, &at.index(i))).collect()
+        let (solids, points): (Vec<_>, Vec<_>) = entry.items().iter().map(Node::Plain).enumerate().partition(|(_, item)| item.is_map());
+        if let ([_, ..], [(first, _), ..]) = (&solids[..], &points[..]) {
+            let fault = self.fault("two-kinds", &at.index(*first), "a point in a list of solids", "solids alone, or points alone");
+            fault.help = Some("draw the body by one of both; joints and points outside of its solids are shown as they are".to_owned());
+        }
+        solids.into_iter().filter_map(|(i, item)| self.solid(item, &at.index(i))).collect()
     }
 
     fn solid(&mut self, node: Node<'n>, at: &At<'_, 'n>) -> Option<Solid> {

@@ -89,7 +89,7 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
     let all = |places: &[G::Vector]| places.iter().map(|p| numbers::<G>(*p)).collect::<Vec<_>>();
     let drawn = all(&body.drawn);
     if !body.solids.is_empty() {
-        return solids(body, &all(&places), drawn);
+        return solids(body, &all(&places));
     }
     let outlined = G::VECTOR == 2 && is_simple(&drawn);
     if !outlined {
@@ -120,8 +120,8 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
     }
 }
 
-/// The solids of a body, the hull of points that outline it beside them, and bars from the nearest of them to places outside of all.
-fn solids<G: Space>(body: &mechanism::Body<G>, places: &[Vec<f64>], drawn: Vec<Vec<f64>>) -> Vec<Shape> {
+/// The solids of a body, and bars from the nearest of them to places outside of all.
+fn solids<G: Space>(body: &mechanism::Body<G>, places: &[Vec<f64>]) -> Vec<Shape> {
     let triple = |at: &[f64]| [0, 1, 2].map(|i| at.get(i).copied().unwrap_or(0.0));
     let far = |solid: &Solid, at: [f64; 3]| (0..3).map(|i| (solid.at[i] - at[i]).powi(2)).sum::<f64>();
     let bar = |at: &Vec<f64>| {
@@ -130,21 +130,26 @@ fn solids<G: Space>(body: &mechanism::Body<G>, places: &[Vec<f64>], drawn: Vec<V
         Some(Shape::Bar { from: nearest.at.to_vec(), to: at.clone(), width: None })
     };
     let outside = places.iter().filter(|at| !body.solids.iter().any(|solid| solid.holds(triple(at))));
-    let outline = (!drawn.is_empty()).then_some(Shape::Hull { points: drawn });
-    body.solids.iter().map(solid_shape).chain(outline).chain(outside.filter_map(bar)).collect()
+    body.solids.iter().filter_map(solid_shape).chain(outside.filter_map(bar)).collect()
 }
 
-/// A solid in the frame of its body.
-fn solid_shape(solid: &Solid) -> Shape {
+/// A solid in the frame of its body; none of one that has no size.
+fn solid_shape(solid: &Solid) -> Option<Shape> {
     let upright = (0..3).all(|i| (0..3).all(|k| solid.turned[i][k] == f64::from(u8::from(i == k))));
     match solid.form {
-        SolidForm::Box { size } if upright => Shape::Box { center: solid.at.to_vec(), size: size.to_vec() },
-        SolidForm::Box { .. } => Shape::Hull { points: solid.corners().map(|corner| corner.to_vec()).to_vec() },
+        SolidForm::Box { size } if size == [0.0; 3] => None,
+        SolidForm::Box { size } if upright => Some(Shape::Box { center: solid.at.to_vec(), size: size.to_vec() }),
+        SolidForm::Box { .. } => Some(Shape::Hull { points: solid.corners().map(|corner| corner.to_vec()).to_vec() }),
+        SolidForm::Cylinder { radius, .. } | SolidForm::Ball { radius } if radius == 0.0 => None,
+        SolidForm::Cylinder { radius, length: 0.0 } => {
+            let axis = Some([0, 1, 2].map(|i| solid.turned[i][2]).to_vec());
+            Some(Shape::Disc { center: solid.at.to_vec(), radius, axis, thickness: None })
+        }
         SolidForm::Cylinder { radius, length } => {
             let [from, to] = [-0.5, 0.5].map(|part| solid.point([0.0, 0.0, part * length]).to_vec());
-            Shape::Cylinder { from, to, radius }
+            Some(Shape::Cylinder { from, to, radius })
         }
-        SolidForm::Ball { radius } => Shape::Sphere { center: solid.at.to_vec(), radius },
+        SolidForm::Ball { radius } => Some(Shape::Sphere { center: solid.at.to_vec(), radius }),
     }
 }
 
