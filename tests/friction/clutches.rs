@@ -276,6 +276,49 @@ studies: {{ run: {{ {kind}, columns: [c.torque, dA.torque] }} }}
     assert!(in_time("2 rad/s*t").starts_with("while its sides go at one rate"), "{}", in_time("2 rad/s*t"));
 }
 
+/// The arm stands by its one-way clutch a rounding away from where it began, until the clutch lets it go.
+#[test]
+fn implicit_schemes_let_go_what_stands_beside_its_start() {
+    let text = |integrator: &str, tolerance: f64| {
+        format!(
+            "grashof: 1
+name: arms
+space: planar
+gravity: [0, -9.81]
+bodies:
+  b0: {{ bar: {{ length: 0.4324227252050319, mass: 1.7586612009990488 }} }}
+  b1: {{ bar: {{ length: 0.6477176260931972, mass: 1.4238470743500342 }} }}
+joints:
+  J0: {{ revolute: [ground, b0.start], damping: 0.2311588869536013 }}
+  J1: {{ revolute: [b0.end, b1.start] }}
+springs: {{ s0: {{ joint: J0, stiffness: 11.270388595324508 }} }}
+loads:
+  l0: {{ joint: J0, torque: 7.04657958208916*sin(13.898295532682882 rad/s*t + 5.3738706423498375) *1 N m - 1.938892237064148 N m }}
+  l1: {{ joint: J1, torque: 5.598162624619551*sin(14.425205029380496 rad/s*t + 1.8339960438800822) *1 N m + 0.7879529678463335 N m }}
+clutches:
+  c0: {{ joint: J1, torque: 5.934866229174209 N m*(1 + 0.5*sin(7.201825915500017 rad/s*t)) }}
+  c1: {{ joint: J0, one_way: true }}
+start:
+  J0.angle: -0.4583275689227526
+  J0.omega: -2.462832175065078
+  J1.angle: -0.3258255542664852
+  J1.omega: 1.3413803571638212
+studies:
+  run:
+    dynamics: {{ until: 2 s, every: 20 ms, tolerance: {tolerance:e}, integrator: {integrator} }}
+    columns: [time, J0.angle, J1.angle]
+"
+        )
+    };
+    let end = |integrator: &str, tolerance: f64| last(&done(&text(integrator, tolerance), "run")).to_vec();
+    let right = end("dop853", 1e-11);
+    for (integrator, tolerance, within) in [("bdf", 1e-9, 1e-5), ("bdf", 1e-8, 1e-4), ("radau5", 1e-8, 1e-5)] {
+        let found = end(integrator, tolerance);
+        close(integrator, found[1], right[1], within);
+        close(integrator, found[2], right[2], within);
+    }
+}
+
 #[test]
 fn a_clutch_says_what_is_wrong_with_it() {
     let text = "grashof: 1

@@ -241,7 +241,8 @@ impl<'a> Course<'a> {
             phase = Some(holds(self, decided.held, &decided.senses, state)?);
         }
         let Some(phase) = phase else { return Ok(None) };
-        state.live = system.extents(state);
+        // where the evaluator has them: what is held near its start stands there exactly
+        state.live = self.machine(phase).extents(state);
         self.open.extend(open_friction);
         Ok(Some(phase))
     }
