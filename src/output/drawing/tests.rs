@@ -43,6 +43,24 @@ fn texts(drawing: &Drawing) -> Vec<String> {
 }
 
 #[test]
+fn a_plate_that_is_hidden_in_its_middle_is_named_where_it_is_seen() {
+    let corners = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let disc = |radius| Form { kind: FormKind::Disc { center: [0.0; 2], radius, spoke: None }, depth: -0.1 };
+    let off = |radius: f64| {
+        let plate = Form { depth: -1.0, ..plate(corners.clone()).remove(0) };
+        let bodies = vec![Outline::default(), named("plate", vec![vec![plate]]), named("wheel", vec![vec![disc(radius)]])];
+        let drawing = Drawing { bodies, ..Drawing::default() };
+        let found = labels(&drawing);
+        let at = |name: &str| found.iter().find(|label| label.text == name).expect("a name").at;
+        let [plate, wheel] = ["plate", "wheel"].map(at);
+        (plate[0] - wheel[0]).hypot(plate[1] - wheel[1]) / plan(&drawing).sheet.scale
+    };
+    let beside = off(0.45);
+    assert!(beside > 0.45 && beside < 1.0, "{beside}");
+    assert!(off(0.7) > 0.7, "{}", off(0.7));
+}
+
+#[test]
 fn more_names_than_can_be_read_are_left_out() {
     let names = |count: u32| {
         let body = |k| named(&format!("rod {k}"), vec![plate(vec![[f64::from(k), 0.0], [f64::from(k), 1.0]])]);

@@ -4,7 +4,7 @@ use super::Posed;
 use crate::output::polytope;
 use crate::output::pose::{Form, FormKind, Width};
 use crate::output::view::{across, cross, dot};
-use crate::results::scene::{Joint, Place, Shape, rim, wheel};
+use crate::results::scene::{Place, Shape, rim, wheel};
 use std::f64::consts::TAU;
 
 /// Corners of a circle.
@@ -13,8 +13,6 @@ const CORNERS: usize = 96;
 const SPOKE: f64 = 0.8;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
-/// Cylinders, one in the other, that are told apart.
-const MOST_STAGES: u32 = 4;
 
 /// The faces of the hull of points in space, of those that are not joined by legs.
 pub(in crate::output) fn faces_of(points: &[Vec<f64>]) -> Vec<Vec<usize>> {
@@ -116,19 +114,12 @@ impl Posed<'_> {
 
     /// The width of a bar of a body to which the model gives none.
     fn width(&self, body: usize) -> Width {
-        Width::Drawn(self.telescope(body, |joint| [joint.a.body, joint.b.body], 0))
+        Width::Drawn(self.stages[body][0])
     }
 
     /// In the plane the depth of a bar of a body: cylinders lie in front of what slides in them.
     fn depth_of_bar(&self, body: usize) -> Option<f64> {
-        let rods = || self.telescope(body, |joint| [joint.b.body, joint.a.body], 0);
-        (self.scene.dimensions == 2).then(|| f64::from(rods()) * f64::MIN_POSITIVE)
-    }
-
-    /// How many cylinders are around a body, or rods within it, one in the other: the other body of each such slide of its own.
-    fn telescope(&self, body: usize, ends: fn(&Joint) -> [usize; 2], known: u32) -> u32 {
-        let slides = self.scene.joints.iter().filter(|joint| joint.telescopes && ends(joint)[0] == body && known < MOST_STAGES);
-        slides.map(|joint| self.telescope(ends(joint)[1], ends, known + 1)).max().unwrap_or(known)
+        (self.scene.dimensions == 2).then(|| f64::from(self.stages[body][1]) * f64::MIN_POSITIVE)
     }
 
     /// In the plane large plates lie under small ones and under bars; a disc is as large as the square around it.

@@ -4,6 +4,7 @@ mod forces;
 pub(super) mod forms;
 mod gears;
 mod joints;
+mod telescope;
 pub(super) mod traces;
 
 use super::pose::{Drawing, Link, LinkKind, Outline, Symbol};
@@ -23,7 +24,7 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let other = |index: &&usize| scene.at.zip(scene.frames.at.get(**index)).is_none_or(|(x, at)| (x - at).abs() > 1e-9 * width);
     let shown = scene.frames.shown.iter().filter(other);
     let frames = asked.iter().map(Vec::as_slice).chain(shown.map(|index| scene.frame(*index))).collect();
-    let posed = Posed { scene, view: view(scene), frames };
+    let posed = Posed::of(scene, frames);
     let traces = scene.traces.iter().filter_map(|trace| posed.trace(trace)).collect();
     let first = scene.at.or_else(|| scene.frames.at.get(*scene.frames.shown.first()?).copied());
     let forces = first.map(|at| posed.forces(at).collect()).unwrap_or_default();
@@ -33,16 +34,16 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
 /// The drawing of a scene at a place of the independent variable, without title and paths.
 pub(super) fn at(scene: &Scene, x: f64) -> Drawing {
     let poses = scene.frames.at(x, scene.dimensions);
-    let posed = Posed { scene, view: view(scene), frames: vec![&poses] };
+    let posed = Posed::of(scene, vec![&poses]);
     Drawing { forces: posed.forces(x).collect(), ..posed.positions() }
 }
 
 /// The drawing of a scene at several places: one position for each, and the forces of all of them; without title and paths.
 pub(super) fn at_all(scene: &Scene, places: &[f64]) -> Drawing {
     let poses: Vec<Vec<f64>> = places.iter().map(|x| scene.frames.at(*x, scene.dimensions)).collect();
-    let one = |poses| Posed { scene, view: view(scene), frames: vec![poses] };
+    let one = |poses| Posed::of(scene, vec![poses]);
     let forces = poses.iter().zip(places).flat_map(|(poses, x)| one(poses.as_slice()).forces(*x).collect::<Vec<_>>()).collect();
-    let all = Posed { scene, view: view(scene), frames: poses.iter().map(Vec::as_slice).collect() };
+    let all = Posed::of(scene, poses.iter().map(Vec::as_slice).collect());
     Drawing { forces, ..all.positions() }
 }
 
@@ -79,6 +80,15 @@ struct Posed<'a> {
     scene: &'a Scene,
     view: View,
     frames: Vec<&'a [f64]>,
+    /// For each body how many cylinders are around it, and rods within it.
+    stages: Vec<[u32; 2]>,
+}
+
+impl<'a> Posed<'a> {
+    /// A scene in some positions.
+    fn of(scene: &'a Scene, frames: Vec<&'a [f64]>) -> Self {
+        Self { scene, view: view(scene), frames, stages: telescope::stages(scene) }
+    }
 }
 
 impl Posed<'_> {
