@@ -27,11 +27,30 @@ impl Sparsity {
     ///
     /// Entries outside of the matrix are ignored.
     pub fn new(rows: usize, columns: usize, entries: impl IntoIterator<Item = (usize, usize)>) -> Self {
-        let mut entries: Vec<_> = entries.into_iter().filter(|&(i, j)| i < rows && j < columns).collect();
-        entries.sort_unstable();
-        entries.dedup();
-        let starts = (0..=rows).map(|i| entries.partition_point(|&(row, _)| row < i)).collect();
-        Self::of(columns, starts, entries.into_iter().map(|(_, j)| j).collect())
+        let entries: Vec<_> = entries.into_iter().filter(|&(i, j)| i < rows && j < columns).collect();
+        let mut starts = vec![0; rows + 1];
+        entries.iter().for_each(|&(i, _)| starts[i + 1] += 1);
+        (0..rows).for_each(|i| starts[i + 1] += starts[i]);
+        let (mut next, mut indices) = (starts.clone(), vec![0; entries.len()]);
+        for (i, j) in entries {
+            indices[next[i]] = j;
+            next[i] += 1;
+        }
+        let mut end = 0;
+        for i in 0..rows {
+            let row = starts[i]..starts[i + 1];
+            starts[i] = end;
+            indices[row.clone()].sort_unstable();
+            for k in row {
+                if end == starts[i] || indices[end - 1] != indices[k] {
+                    indices[end] = indices[k];
+                    end += 1;
+                }
+            }
+        }
+        starts[rows] = end;
+        indices.truncate(end);
+        Self::of(columns, starts, indices)
     }
 
     /// The pattern of rows that begin at `starts` of the columns `indices`.

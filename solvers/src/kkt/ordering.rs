@@ -2,7 +2,9 @@
 
 use crate::Sparsity;
 use crate::sparsity::SPARSE_COST;
-use std::collections::BTreeSet;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::ops::Range;
 
 /// An order of elimination and what elimination on the diagonal in this order costs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,15 +30,16 @@ impl Ordering {
     /// The same with all unknowns below `first` before the others.
     pub(super) fn first_below(first: usize, pattern: &Sparsity) -> Self {
         let mut graph = Quotient::new(pattern, first);
-        let mut result = Self { order: Vec::with_capacity(graph.n), fill: 0, operations: 0 };
-        while let Some((.., pivot)) = graph.queue.pop_first() {
+        let n = pattern.columns();
+        let mut result = Self { order: Vec::with_capacity(n), fill: 0, operations: 0 };
+        while let Some(pivot) = graph.least() {
             graph.eliminate(pivot);
-            let (width, degree) = (graph.members[pivot].len(), graph.boundary_size[pivot]);
+            let (width, degree) = (std::mem::take(&mut graph.members[pivot]) as usize, graph.boundary_size[pivot] as usize);
             for left in (0..width).rev().map(|k| k + degree) {
                 result.fill += 2 * left + 1;
                 result.operations += left * left;
             }
-            result.order.append(&mut graph.members[pivot]);
+            result.order.extend(graph.chain(pivot));
         }
         result
     }
@@ -47,96 +50,164 @@ impl Ordering {
     }
 }
 
+/// No pivot and no degree.
+const NONE: u32 = u32::MAX;
+
 /// The graph that is left after some eliminations; an eliminated node is an *element*, which stands for the clique of its boundary.
+///
+/// Lists of nodes stand in three arrays for all nodes: that one which a variable touches never grows, as a new element takes the place
+/// of the pivot or of an element that it absorbs.
 struct Quotient {
-    n: usize,
     /// Unknowns not eliminated yet.
-    left: usize,
-    /// Neighbours of each variable that no element connects it to, rising.
-    variables: Vec<Vec<usize>>,
-    /// Elements next to each variable, in the order of their making.
-    elements: Vec<Vec<usize>>,
-    /// Variables next to each element.
-    boundary: Vec<Vec<usize>>,
+    left: u32,
+    /// What each variable touches: in front the variables that no element connects it to, rising, at the end of its room the elements, the
+    /// last one made first.
+    touched: Vec<u32>,
+    /// Where the room of each variable begins, and the end (n + 1).
+    begins: Vec<usize>,
+    /// Number of variables and of elements there.
+    variables: Vec<u32>,
+    elements: Vec<u32>,
+    /// Variables next to elements, one element after the other, and where those of each stand.
+    boundaries: Vec<u32>,
+    boundary: Vec<Range<usize>>,
     /// Unknowns in each boundary.
-    boundary_size: Vec<usize>,
-    /// Unknowns that each variable stands for; none once another variable or an element has taken it in.
-    members: Vec<Vec<usize>>,
+    boundary_size: Vec<u32>,
+    /// Number of unknowns that each variable stands for; 0 once another variable or an element has taken it in.
+    members: Vec<u32>,
+    /// The unknown after each in the list of those that are eliminated together, and the end of the list that each begins.
+    next: Vec<u32>,
+    last: Vec<u32>,
     /// Approximate external degree of each variable, in unknowns.
-    degree: Vec<usize>,
-    /// Variables by whether they are eliminated after the first ones, by degree, then index.
-    queue: BTreeSet<(bool, usize, usize)>,
+    degree: Vec<u32>,
+    /// Variables by whether they are eliminated after the first ones, by degree, then index. One counts where it stands with the degree in
+    /// `queued`.
+    queue: BinaryHeap<Reverse<(bool, u32, u32)>>,
+    queued: Vec<u32>,
     /// Unknowns below it are eliminated first.
     first: usize,
     /// Whether an element is still there.
     alive: Vec<bool>,
     /// |L_e \ L_p| of the elements next to the boundary L_p of pivot p, valid where `seen` is p.
-    outside: Vec<usize>,
-    seen: Vec<usize>,
+    outside: Vec<u32>,
+    seen: Vec<u32>,
     /// The last pivot that a variable was found next to.
-    near: Vec<usize>,
+    near: Vec<u32>,
+    /// Room for `merge_equal`.
+    keyed: Vec<(u32, u32)>,
 }
 
 impl Quotient {
     fn new(pattern: &Sparsity, first: usize) -> Self {
         let n = pattern.columns();
-        let other = pattern.transposed();
-        let variables: Vec<Vec<usize>> = (0..n)
-            .map(|j| {
-                let mut row: Vec<usize> = pattern.row(j).iter().chain(other.row(j)).copied().filter(|&i| i != j).collect();
-                row.sort_unstable();
-                row.dedup();
-                row
-            })
-            .collect();
-        let degree: Vec<usize> = variables.iter().map(Vec::len).collect();
+        let pairs = || pattern.places().filter(|(i, j)| i != j);
+        let mut begins = vec![0; n + 1];
+        pairs().for_each(|(i, j)| [i, j].iter().for_each(|&i| begins[i + 1] += 1));
+        (0..n).for_each(|i| begins[i + 1] += begins[i]);
+        let (mut next, mut touched) = (begins.clone(), vec![0; begins[n]]);
+        for (i, j) in pairs() {
+            for (i, j) in [(i, j), (j, i)] {
+                touched[next[i]] = j as u32;
+                next[i] += 1;
+            }
+        }
+        // an entry and the one across the diagonal are one neighbour
+        let mut end = 0;
+        for i in 0..n {
+            let all = begins[i]..begins[i + 1];
+            begins[i] = end;
+            touched[all.clone()].sort_unstable();
+            for k in all {
+                if end == begins[i] || touched[end - 1] != touched[k] {
+                    touched[end] = touched[k];
+                    end += 1;
+                }
+            }
+        }
+        begins[n] = end;
+        touched.truncate(end);
+        touched.shrink_to_fit();
+        let degree: Vec<u32> = begins.windows(2).map(|ends| (ends[1] - ends[0]) as u32).collect();
+        let queue: Vec<_> = degree.iter().zip(0..).map(|(degree, i)| Reverse((i as usize >= first, *degree, i))).collect();
         Self {
-            n,
-            left: n,
-            queue: degree.iter().zip(0..n).map(|(degree, i)| (i >= first, *degree, i)).collect(),
-            first,
-            elements: vec![Vec::new(); n],
-            boundary: vec![Vec::new(); n],
+            left: n as u32,
+            touched,
+            begins,
+            variables: degree.clone(),
+            elements: vec![0; n],
+            boundaries: Vec::with_capacity(n),
+            boundary: vec![0..0; n],
             boundary_size: vec![0; n],
-            members: (0..n).map(|i| vec![i]).collect(),
+            members: vec![1; n],
+            next: vec![NONE; n],
+            last: (0..n as u32).collect(),
+            queue: queue.into(),
+            queued: degree.clone(),
+            degree,
+            first,
             alive: vec![false; n],
             outside: vec![0; n],
-            seen: vec![usize::MAX; n],
-            near: vec![usize::MAX; n],
-            variables,
-            degree,
+            seen: vec![NONE; n],
+            near: vec![NONE; n],
+            keyed: Vec::new(),
         }
+    }
+
+    /// Variables that no element connects a variable to.
+    fn variables(&self, i: usize) -> &[u32] {
+        &self.touched[self.begins[i]..][..self.variables[i] as usize]
+    }
+
+    /// Elements next to a variable, the last one made first.
+    fn elements(&self, i: usize) -> &[u32] {
+        let end = self.begins[i + 1];
+        &self.touched[end - self.elements[i] as usize..end]
+    }
+
+    /// An unknown and those that follow in its list.
+    fn chain(&self, i: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(i), |&i| Some(self.next[i]).filter(|&i| i != NONE).map(|i| i as usize))
+    }
+
+    /// Takes the variable of least degree out of the queue.
+    fn least(&mut self) -> Option<usize> {
+        while let Some(Reverse((_, degree, i))) = self.queue.pop() {
+            let i = i as usize;
+            if self.queued[i] == degree && self.members[i] > 0 {
+                self.queued[i] = NONE;
+                return Some(i);
+            }
+        }
+        None
     }
 
     /// Makes variable `p` an element and brings its neighbours up to date.
     fn eliminate(&mut self, p: usize) {
-        self.left -= self.members[p].len();
-        let boundary = self.take_boundary(p);
+        self.left -= self.members[p];
+        let begin = self.boundaries.len();
+        self.take_boundary(p);
         self.alive[p] = true;
-        self.boundary_size[p] = self.size(&boundary);
-        self.count_outside(p, &boundary);
-        for &i in &boundary {
-            self.queue.remove(&self.queued(i));
-            self.prune(p, i);
+        self.count_outside(p, begin);
+        for k in begin..self.boundaries.len() {
+            self.prune(p, self.boundaries[k] as usize);
         }
-        let boundary = self.eliminate_with(p, boundary);
-        let size = self.size(&boundary);
+        self.eliminate_with(p, begin);
+        let size = self.boundaries[begin..].iter().map(|&i| self.members[i as usize]).sum();
         self.boundary_size[p] = size;
-        for &i in &boundary {
+        for k in begin..self.boundaries.len() {
+            let i = self.boundaries[k] as usize;
             self.degree[i] = self.approximate_degree(p, i, size);
         }
-        let boundary = self.merge_equal(boundary);
-        for &i in &boundary {
+        self.merge_equal(begin);
+        for k in begin..self.boundaries.len() {
+            let i = self.boundaries[k] as usize;
             // what a variable has taken in is no neighbour any more
-            self.degree[i] = self.degree[i].min(self.left - self.members[i].len());
-            self.queue.insert(self.queued(i));
+            self.degree[i] = self.degree[i].min(self.left - self.members[i]);
+            if std::mem::replace(&mut self.queued[i], self.degree[i]) != self.degree[i] {
+                self.queue.push(Reverse((i >= self.first, self.degree[i], i as u32)));
+            }
         }
-        self.boundary[p] = boundary;
-    }
-
-    /// The place of a variable in the queue.
-    fn queued(&self, i: usize) -> (bool, usize, usize) {
-        (i >= self.first, self.degree[i], i)
+        self.boundary[p] = begin..self.boundaries.len();
     }
 
     /// Whether two unknowns may be eliminated together: both are of the first ones, or neither is.
@@ -144,98 +215,138 @@ impl Quotient {
         (i < self.first) == (j < self.first)
     }
 
-    fn size(&self, variables: &[usize]) -> usize {
-        variables.iter().map(|&i| self.members[i].len()).sum()
+    /// Has variable `i` or element `i` take in a variable.
+    fn take_in(&mut self, i: usize, taken: usize) {
+        self.members[i] += std::mem::take(&mut self.members[taken]);
+        self.next[self.last[i] as usize] = taken as u32;
+        self.last[i] = self.last[taken];
     }
 
-    /// L_p = (A_p ∪ ⋃ L_e) \ {p}, e next to p; these elements are absorbed. Marks its variables in `near`.
-    fn take_boundary(&mut self, p: usize) -> Vec<usize> {
-        self.near[p] = p;
-        let mut boundary = Vec::new();
-        let mut lists = vec![std::mem::take(&mut self.variables[p])];
-        for e in std::mem::take(&mut self.elements[p]) {
+    /// L_p = (A_p ∪ ⋃ L_e) \ {p}, e next to p, at the end of `boundaries`; these elements are absorbed. Marks its variables in `near`.
+    fn take_boundary(&mut self, p: usize) {
+        self.near[p] = p as u32;
+        let (begin, end) = (self.begins[p], self.begins[p + 1]);
+        for k in begin..begin + self.variables[p] as usize {
+            self.find(p, self.touched[k] as usize);
+        }
+        for k in (end - self.elements[p] as usize..end).rev() {
+            let e = self.touched[k] as usize;
             if std::mem::replace(&mut self.alive[e], false) {
-                lists.push(std::mem::take(&mut self.boundary[e]));
+                for k in self.boundary[e].clone() {
+                    self.find(p, self.boundaries[k] as usize);
+                }
             }
         }
-        for i in lists.into_iter().flatten() {
-            if !self.members[i].is_empty() && self.near[i] != p {
-                self.near[i] = p;
-                boundary.push(i);
-            }
+    }
+
+    /// Adds a variable to L_p, if it is one and not there yet.
+    fn find(&mut self, p: usize, i: usize) {
+        if self.members[i] > 0 && self.near[i] != p as u32 {
+            self.near[i] = p as u32;
+            self.boundaries.push(i as u32);
         }
-        boundary
     }
 
     /// |L_e \ L_p| = |L_e| − |L_e ∩ L_p| for all elements e next to a variable of L_p (algorithm 2 of the paper).
-    fn count_outside(&mut self, p: usize, boundary: &[usize]) {
-        for &i in boundary {
-            for &e in &self.elements[i] {
-                if self.seen[e] != p {
-                    self.seen[e] = p;
+    fn count_outside(&mut self, p: usize, begin: usize) {
+        for &i in &self.boundaries[begin..] {
+            let i = i as usize;
+            let end = self.begins[i + 1];
+            for &e in &self.touched[end - self.elements[i] as usize..end] {
+                let e = e as usize;
+                if self.seen[e] != p as u32 {
+                    self.seen[e] = p as u32;
                     self.outside[e] = self.boundary_size[e];
                 }
-                self.outside[e] -= self.members[i].len();
+                self.outside[e] -= self.members[i];
             }
         }
     }
 
     /// Leaves variable `i` of L_p only what p does not stand for: elements inside L_p are absorbed, neighbours in it dropped.
     fn prune(&mut self, p: usize, i: usize) {
-        let (near, members, outside, alive) = (&self.near, &self.members, &self.outside, &mut self.alive);
-        self.variables[i].retain(|&j| near[j] != p && !members[j].is_empty());
-        self.elements[i].retain(|&e| {
-            alive[e] &= outside[e] > 0;
-            alive[e]
-        });
-        self.elements[i].push(p);
+        let (begin, end) = (self.begins[i], self.begins[i + 1]);
+        let mut kept = begin;
+        for k in begin..begin + self.variables[i] as usize {
+            let j = self.touched[k];
+            if self.near[j as usize] != p as u32 && self.members[j as usize] > 0 {
+                self.touched[kept] = j;
+                kept += 1;
+            }
+        }
+        self.variables[i] = (kept - begin) as u32;
+        let mut kept = end;
+        for k in (end - self.elements[i] as usize..end).rev() {
+            let e = self.touched[k];
+            self.alive[e as usize] &= self.outside[e as usize] > 0;
+            if self.alive[e as usize] {
+                kept -= 1;
+                self.touched[kept] = e;
+            }
+        }
+        kept -= 1;
+        self.touched[kept] = p as u32;
+        self.elements[i] = (end - kept) as u32;
     }
 
-    /// Variables that touch nothing but p are eliminated with it, without fill; the rest of the boundary.
-    fn eliminate_with(&mut self, p: usize, mut boundary: Vec<usize>) -> Vec<usize> {
-        boundary.retain(|&i| {
-            let stays = !self.variables[i].is_empty() || self.elements[i].len() > 1 || !self.alike(i, p);
-            if !stays {
-                let mut taken = std::mem::take(&mut self.members[i]);
-                self.left -= taken.len();
-                self.members[p].append(&mut taken);
+    /// Eliminates variables that touch nothing but p with it, without fill.
+    fn eliminate_with(&mut self, p: usize, begin: usize) {
+        let mut kept = begin;
+        for k in begin..self.boundaries.len() {
+            let i = self.boundaries[k] as usize;
+            if self.variables[i] > 0 || self.elements[i] > 1 || !self.alike(i, p) {
+                self.boundaries[kept] = i as u32;
+                kept += 1;
+            } else {
+                self.left -= self.members[i];
+                self.take_in(p, i);
             }
-            stays
-        });
-        boundary
+        }
+        self.boundaries.truncate(kept);
     }
 
     /// min(n − k, d_i + |L_p \ i|, |A_i \ i| + |L_p \ i| + Σ |L_e \ L_p|), equation (4.1) of the paper.
-    fn approximate_degree(&self, p: usize, i: usize, boundary_size: usize) -> usize {
-        let own = self.members[i].len();
+    fn approximate_degree(&self, p: usize, i: usize, boundary_size: u32) -> u32 {
+        let (own, p) = (self.members[i], p as u32);
         let with_p = boundary_size - own;
-        let elements: usize = self.elements[i].iter().filter(|&&e| e != p).map(|&e| self.outside[e]).sum();
-        let sum = self.size(&self.variables[i]) + with_p + elements;
-        sum.min(self.degree[i] + with_p).min(self.left - own)
+        let variables: usize = self.variables(i).iter().map(|&j| self.members[j as usize] as usize).sum();
+        let elements: usize = self.elements(i).iter().filter(|&&e| e != p).map(|&e| self.outside[e as usize] as usize).sum();
+        let most = (self.degree[i] + with_p).min(self.left - own);
+        (variables + elements + with_p as usize).min(most as usize) as u32
     }
 
-    /// Joins variables of one boundary that have the same neighbours: they will be eliminated together.
-    fn merge_equal(&mut self, mut boundary: Vec<usize>) -> Vec<usize> {
-        let key = |i: usize| self.variables[i].iter().chain(&self.elements[i]).fold(0_usize, |s, &x| s.wrapping_add(x));
-        let mut keyed: Vec<(usize, usize)> = boundary.iter().map(|&i| (key(i), i)).collect();
+    /// Joins variables of the boundary that have the same neighbours: they will be eliminated together.
+    fn merge_equal(&mut self, begin: usize) {
+        let mut keyed = std::mem::take(&mut self.keyed);
+        let key = |i: usize| self.variables(i).iter().chain(self.elements(i)).fold(0_u32, |s, &x| s.wrapping_add(x));
+        keyed.extend(self.boundaries[begin..].iter().map(|&i| (key(i as usize), i)));
         keyed.sort_unstable();
         for group in keyed.chunk_by(|a, b| a.0 == b.0) {
             for (k, &(_, i)) in group.iter().enumerate() {
-                if self.members[i].is_empty() {
+                let i = i as usize;
+                if self.members[i] == 0 {
                     continue;
                 }
                 for &(_, j) in &group[k + 1..] {
-                    let equal = self.variables[i] == self.variables[j] && self.elements[i] == self.elements[j];
-                    if equal && self.alike(i, j) && !self.members[j].is_empty() {
-                        let mut taken = std::mem::take(&mut self.members[j]);
-                        self.degree[i] = self.degree[i].saturating_sub(taken.len());
-                        self.members[i].append(&mut taken);
+                    let j = j as usize;
+                    let equal = self.variables(i) == self.variables(j) && self.elements(i) == self.elements(j);
+                    if equal && self.alike(i, j) && self.members[j] > 0 {
+                        self.degree[i] = self.degree[i].saturating_sub(self.members[j]);
+                        self.take_in(i, j);
                     }
                 }
             }
         }
-        boundary.retain(|&i| !self.members[i].is_empty());
-        boundary
+        keyed.clear();
+        self.keyed = keyed;
+        let mut kept = begin;
+        for k in begin..self.boundaries.len() {
+            if self.members[self.boundaries[k] as usize] > 0 {
+                self.boundaries[kept] = self.boundaries[k];
+                kept += 1;
+            }
+        }
+        self.boundaries.truncate(kept);
     }
 }
 

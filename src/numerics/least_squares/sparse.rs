@@ -59,12 +59,28 @@ impl Saddle {
     pub(super) fn new(groups: &[Group], metric: &[f64], weight: f64) -> Option<Self> {
         let n = metric.len();
         let root: Vec<f64> = metric.iter().map(|d| d.sqrt()).collect();
-        let mut entries: Vec<(usize, usize, f64, f64)> = (0..n).map(|j| (j, j, weight, weight)).collect();
-        let mut unit = Vec::new();
+        let rows: usize = groups.iter().map(|group| group.rows.len()).sum();
+        let order = n + rows;
+        // column after column, as the factor takes them: of x the weight, then its entries in the rows; of λ those of the row, then E
+        let mut next = vec![1; order];
+        for (i, line) in groups.iter().flat_map(|group| group.rows.lines()).enumerate() {
+            next[n + i] += line.len();
+            line.iter().for_each(|&(j, _)| next[j] += 1);
+        }
+        let mut end = 0;
+        next.iter_mut().for_each(|next| end += std::mem::replace(next, end));
+        let (mut places, mut values, mut plain) = (vec![(0, 0); end], vec![0.0; end], vec![0.0; end]);
+        let mut enter = |i: usize, j: usize, value: f64, without: f64| {
+            let k = next[j];
+            (places[k], values[k], plain[k]) = ((i, j), value, without);
+            next[j] += 1;
+        };
+        (0..n).for_each(|j| enter(j, j, weight, weight));
+        let mut unit = Vec::with_capacity(rows);
         for group in groups {
             let longest = group.rows.longest(metric);
             let longest = if longest > 0.0 { longest } else { 1.0 };
-            let (least, e, plain) = match group.slack {
+            let (least, e, without) = match group.slack {
                 Slack::None { round_off } => (f64::max(SHORTEST * longest, CLEAR * round_off), -HARD, 0.0),
                 Slack::Some(e) => (longest, -e, -e),
             };
@@ -73,19 +89,17 @@ impl Saddle {
                 let size = length(line, metric).max(least);
                 for &(j, a) in line {
                     let a = a / (root[j] * size);
-                    entries.extend([(row, j, a, a), (j, row, a, a)]);
+                    enter(row, j, a, a);
+                    enter(j, row, a, a);
                 }
-                entries.push((row, row, e, plain));
+                enter(row, row, e, without);
                 unit.push(size);
             }
         }
-        // column after column, as the factor takes them
-        entries.sort_unstable_by_key(|&(i, j, ..)| (j, i));
-        let places: Vec<(usize, usize)> = entries.iter().map(|&(i, j, ..)| (i, j)).collect();
-        let order = n + unit.len();
-        let mut factor = Factor::new(&Sparsity::new(order, order, places.iter().copied()));
-        factor.factor(&entries.iter().map(|entry| entry.2).collect::<Vec<_>>()).ok()?;
-        Some(Self { root, factor, places, plain: entries.iter().map(|entry| entry.3).collect(), unit })
+        // the pattern is symmetric
+        let mut factor = Factor::new(&Sparsity::new(order, order, places.iter().map(|&(i, j)| (j, i))));
+        factor.factor(&values).ok()?;
+        Some(Self { root, factor, places, plain, unit })
     }
 
     /// The solution x for a right side `top` of the first equations and those of the groups, one after the other; what is missing is 0.
