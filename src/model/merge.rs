@@ -3,6 +3,7 @@
 
 use super::spans::Step;
 use serde_yaml::{Mapping, Value};
+use std::fmt::Write;
 
 /// A value as a reader sees it: of the file, or merged.
 #[derive(Clone, Copy)]
@@ -161,6 +162,9 @@ impl<'a> Layers<'a> {
 
     /// Path in its layer of a merged path: of a value in the last layer that gives it, of a map in the layer that began it.
     pub(crate) fn source(&self, steps: &[Step<'_>]) -> String {
+        if !self.is_merged() {
+            return path(steps);
+        }
         let mut head: Option<String> = None;
         for (name, map) in self.all() {
             match follow(map, steps) {
@@ -209,7 +213,8 @@ fn follow<'v>(map: &'v Mapping, steps: &[Step<'_>]) -> Follow<'v> {
 
 /// A path as text: `joints.O.revolute[1]`.
 pub(crate) fn path(steps: &[Step<'_>]) -> String {
-    let mut text = String::new();
+    let length = steps.iter().map(|step| if let Step::Key(key) = step { key.len() + 1 } else { 4 }).sum();
+    let mut text = String::with_capacity(length);
     for step in steps {
         match step {
             Step::Key(key) => {
@@ -218,7 +223,8 @@ pub(crate) fn path(steps: &[Step<'_>]) -> String {
                 }
                 text.push_str(key);
             }
-            Step::Index(i) => text.push_str(&format!("[{i}]")),
+            // writing to a text cannot fail
+            Step::Index(i) => drop(write!(text, "[{i}]")),
         }
     }
     text

@@ -108,6 +108,11 @@ pub(crate) fn not_finite(parameter: &entities::Parameter, x: f64, why: Option<Ca
 }
 
 impl Rule {
+    /// Whether values are as they must be, for what they alone tell it: not whether they make a table.
+    pub(crate) fn allows(self, x: &[f64]) -> bool {
+        !matches!(self, Rule::Table(_)) && self.fault(x, &[], String::new).is_none()
+    }
+
     /// What is wrong with some values, at a place that is asked for only then.
     fn fault(self, x: &[f64], tables: &[entities::Table], place: impl Fn() -> String) -> Option<Fault> {
         let fault = |code, message: String, expected: &str| Some(Fault::new(code, place(), message, expected));

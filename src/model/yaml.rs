@@ -74,7 +74,8 @@ fn value(text: &str) -> Result<Value, Vec<Fault>> {
                 let value = plain(&word).map_err(|fault| vec![fault.at(at(start, width))])?;
                 tree.add(value);
             }
-            Event::Scalar(word, ..) => tree.add(Value::String(word.into_owned())),
+            // the parser's own texts have room to spare
+            Event::Scalar(word, ..) => tree.add(Value::String((*word).to_owned())),
             Event::SequenceStart(..) => tree.begin(Value::Sequence(Vec::new())),
             Event::MappingStart(..) => tree.begin(Value::Mapping(Mapping::new())),
             Event::SequenceEnd | Event::MappingEnd => tree.end(),
@@ -125,7 +126,13 @@ impl Tree {
     }
 
     fn end(&mut self) {
-        if let Some((closed, _)) = self.open.pop() {
+        if let Some((mut closed, _)) = self.open.pop() {
+            // most have one entry or two and are made with room for four
+            match &mut closed {
+                Value::Mapping(map) => map.shrink_to_fit(),
+                Value::Sequence(items) => items.shrink_to_fit(),
+                _ => {}
+            }
             self.add(closed);
         }
     }

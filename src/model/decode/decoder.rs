@@ -156,12 +156,22 @@ impl<'n> Decoder<'n> {
     }
 
     pub(super) fn check(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
-        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: false });
+        self.register(rule, ids, at, false);
     }
 
     /// A check of values that are taken before a study varies parameters.
     pub(super) fn check_once(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>) {
-        self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once: true });
+        self.register(rule, ids, at, true);
+    }
+
+    /// Keeps a check, but for one that constants pass: they pass it with all parameters.
+    fn register(&mut self, rule: Rule, ids: &[Id], at: &At<'_, 'n>, once: bool) {
+        let mut numbers = [0.0; 6];
+        let mut constants = ids.iter().map_while(|&id| self.pool.constant_value(id));
+        let count = numbers.iter_mut().zip(&mut constants).map(|(number, x)| *number = x).count();
+        if count < ids.len() || !rule.allows(&numbers[..count]) {
+            self.checks.push(Check { rule, ids: ids.to_vec(), place: at.steps(), once });
+        }
     }
 
     /// The syntax tree of a text.
