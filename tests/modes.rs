@@ -6,6 +6,7 @@ mod many;
 mod many_damped;
 mod meeting;
 mod order;
+mod pictures;
 mod round_off;
 
 use crate::common;

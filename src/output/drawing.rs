@@ -10,7 +10,7 @@ use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin::Point;
-use super::{font, forces, thin};
+use super::{font, forces, moves, thin};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
@@ -124,6 +124,7 @@ fn lettered<'a>(drawing: &'a Drawing, plan: &Plan) -> Pen<'a> {
     }
     pen.traces();
     forces::draw(drawing, &plan.sheet, plan.signs, plan.forces, &mut pen.scene, &mut pen.letters);
+    moves::draw(drawing, &plan.sheet, plan.signs, &mut pen.scene, &mut pen.letters);
     let names = naming::all(drawing, &pen.sheet, pen.signs.size);
     pen.names(names, paper);
     pen

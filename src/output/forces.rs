@@ -137,7 +137,7 @@ fn outline(force: &Force, signs: Signs, scales: Scales, [from, to]: [Point; 2]) 
 }
 
 /// An arrow; one that is shorter than its head is a smaller one.
-fn arrow(signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
+pub(super) fn arrow(signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
     let (along, length) = direction(from, to);
     let size = HEAD * signs.size.max(0.6);
     let part = (length / (2.0 * size)).min(1.0);
@@ -148,7 +148,7 @@ fn arrow(signs: Signs, [from, to]: [Point; 2]) -> Vec<Point> {
 
 /// A torque: an arrow of seven tenths of a turn about its place, by two directions across its axis in pixels, counter-clockwise for a
 /// positive one, of a radius in pixels; as wide as other arrows unless it is small. Seen from the side it is a line.
-fn turned(signs: Signs, at: Point, [u, v]: [Point; 2], radius: f64, sense: f64) -> Vec<Point> {
+pub(super) fn turned(signs: Signs, at: Point, [u, v]: [Point; 2], radius: f64, sense: f64) -> Vec<Point> {
     const STEPS: u32 = 30;
     let head = HEAD * signs.size.max(0.6);
     let part = (radius / (1.2 * head)).min(1.0);

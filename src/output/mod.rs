@@ -27,6 +27,7 @@ mod marks;
 mod mat;
 mod matrices;
 mod measure;
+mod moves;
 mod naming;
 mod outlines;
 mod panel;
@@ -76,7 +77,9 @@ pub use matrices::matrices;
 pub use parquet::{ParquetTable, gather_parquet, write_parquet};
 pub use picture::Picture;
 pub use plot::{Axis, Curve, Figure, Mark, Scale};
-pub use pose::{Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Outline, Placement, Symbol, SymbolKind, Trace, Width};
+pub use pose::{
+    Drawing, Force, ForceKind, Form, FormKind, Gear, Link, LinkKind, Move, Outline, Placement, Symbol, SymbolKind, Trace, Width,
+};
 pub use posed::drawing;
 pub use raster::RenderError;
 pub use report::{LIVE_POLICY, Report, ReportFault, ReportModel, ReportRuns, ReportStudy, live_page};

@@ -28,6 +28,8 @@ pub struct Drawing {
     pub traces: Vec<Trace>,
     /// Forces in the first position; of a motion those of all its pictures, picture after picture.
     pub forces: Vec<Force>,
+    /// What has moved from rest to the first position, if arrows are to tell it.
+    pub moves: Vec<Move>,
     /// The three axes of space as they are seen, each of length 1 in space; none in the plane.
     pub axes: Option<[[f64; 2]; 3]>,
 }
@@ -269,6 +271,16 @@ pub enum ForceKind {
     Load,
     /// What a joint transmits.
     Reaction,
+}
+
+/// How a point has moved from rest, or a body has turned about one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the line above each variant names its fields")]
+pub enum Move {
+    /// A point has gone from a place to another.
+    Shift { from: [f64; 2], to: [f64; 2] },
+    /// A body has turned about a place, from the first of two directions across its axis towards the second, of length 1 in space.
+    Turn { at: [f64; 2], across: [[f64; 2]; 2] },
 }
 
 /// The path of a point.

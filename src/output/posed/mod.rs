@@ -4,6 +4,7 @@ mod forces;
 pub(super) mod forms;
 mod gears;
 mod joints;
+mod moves;
 mod telescope;
 pub(super) mod traces;
 
@@ -28,7 +29,8 @@ pub fn drawing(model: &str, study: &str, name: &str, scene: &Scene) -> Drawing {
     let traces = scene.traces.iter().filter_map(|trace| posed.trace(trace)).collect();
     let first = scene.at.or_else(|| scene.frames.at.get(*scene.frames.shown.first()?).copied());
     let forces = first.map(|at| posed.forces(at).collect()).unwrap_or_default();
-    Drawing { title: title(model, study, name, &scene.caption), traces, forces, ..posed.positions() }
+    let moves = scene.frames.rest.map(|index| posed.moves(scene.frame(index))).unwrap_or_default();
+    Drawing { title: title(model, study, name, &scene.caption), traces, forces, moves, ..posed.positions() }
 }
 
 /// The drawing of a scene at a place of the independent variable, without title and paths.
@@ -105,6 +107,7 @@ impl Posed<'_> {
             gears: self.gears().collect(),
             traces: Vec::new(),
             forces: Vec::new(),
+            moves: Vec::new(),
             axes: (self.scene.dimensions == 3).then_some(axes),
         }
     }

@@ -226,7 +226,7 @@ mod tests {
     fn frames_are_halved_with_their_ends_kept() {
         let at: Vec<f64> = (0..=100).map(f64::from).collect();
         let poses = at.iter().flat_map(|x| [*x, 0.0, 0.0]).collect();
-        let frames = Frames { poses, at, shown: vec![0, 50, 100], error: 1e-6, closed: false };
+        let frames = Frames { poses, at, shown: vec![0, 50, 100], error: 1e-6, ..Frames::default() };
         let mut scene = Scene { dimensions: 2, bodies: vec![Default::default(); 2], frames, ..Scene::default() };
         thinned(&mut scene, 160);
         assert_eq!(scene.frames.at.len(), 51);
@@ -241,7 +241,7 @@ mod tests {
         // a body that moves with the root of the way to the end, at frames ever closer to it
         let at: Vec<f64> = (0..2000).map(|i| 1.0 - (1.0 - f64::from(i) / 1999.0).powi(4)).collect();
         let poses: Vec<f64> = at.iter().flat_map(|x| [(1.0 - x).max(0.0).sqrt(), 0.0, 0.0]).collect();
-        let frames = Frames { poses: poses.clone(), at: at.clone(), shown: vec![0, 1999], error: 0.0, closed: false };
+        let frames = Frames { poses: poses.clone(), at: at.clone(), shown: vec![0, 1999], ..Frames::default() };
         let mut scene = Scene { dimensions: 2, bodies: vec![Default::default(); 2], frames, ..Scene::default() };
         thinned(&mut scene, 600);
         let Frames { at: places, poses: nodes, shown, error, .. } = &scene.frames;

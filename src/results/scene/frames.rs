@@ -15,6 +15,9 @@ pub struct Frames {
     pub poses: Vec<f64>,
     /// Frames that a still picture shows, the first one strongly.
     pub shown: Vec<usize>,
+    /// Of a swing the frame at rest: arrows in a still picture tell what has moved from there to the first that it shows.
+    #[serde(default)]
+    pub rest: Option<usize>,
     /// What [`interpolate`] leaves out at most, m.
     pub error: f64,
     /// Whether the last frame is the first one again.

@@ -63,6 +63,7 @@ pub(super) fn picture<G: Space<S = f64>>(
             let mut scene = subject.over(span, &mut |phase| Some((phase, at(s * phase.sin())?)));
             let last = scene.frames.count() - 1;
             scene.frames.shown = vec![last / 4, 0, last - last / 4];
+            scene.frames.rest = Some(0);
             return scene;
         }
         s *= 0.5;

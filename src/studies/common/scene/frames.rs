@@ -71,8 +71,7 @@ pub(super) fn of_poses<G: Space<S = f64>>(poses: &[Vec<Pose<G>>]) -> Frames {
         at: (0..poses.len()).map(|i| i as f64).collect(),
         poses: poses.iter().flat_map(|poses| flat(poses)).collect(),
         shown: (0..poses.len()).collect(),
-        error: 0.0,
-        closed: false,
+        ..Frames::default()
     }
 }
 
@@ -328,7 +327,7 @@ impl Sampler {
             poses = poses.chunks_exact(width.max(1)).rev().flatten().copied().collect();
             shown.iter_mut().for_each(|i| *i = last - *i);
         }
-        Frames { at, poses, shown, error, closed }
+        Frames { at, poses, shown, error, closed, rest: None }
     }
 
     /// Whether two frames are one, whole turns aside.
