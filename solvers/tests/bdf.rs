@@ -2,7 +2,7 @@
 
 use crate::problems::*;
 use allocation_counter::measure;
-use grashof_solvers::{Control, Counts, Integration, Level, Method, Node, Progress, Settings, State, System};
+use grashof_solvers::{Control, Counts, Integration, Level, Method, Node, Progress, Settings, State, System, Why};
 
 const LEVELS: [Level; 4] = [Level::Stabilized, Level::Position, Level::Velocity, Level::Acceleration];
 
@@ -301,5 +301,23 @@ fn steps_allocate_nothing() {
         run.advance(system.as_mut(), end).unwrap();
         let info = measure(|| while run.advance(system.as_mut(), end).unwrap() != Progress::End {});
         assert_eq!(info.count_total, 0, "{}", system.name());
+    }
+}
+
+#[test]
+fn steps_that_shrink_as_newtons_method_fails_are_told_so() {
+    for method in [Method::Bdf { order: None }, Method::Radau5] {
+        let mut system = Wavering::new();
+        let start = system.start();
+        let given = Settings { method, ..adaptive(1e-6) };
+        let mut run = Integration::new(&mut system, given, &start).unwrap();
+        let halt = loop {
+            match run.advance(&mut system, 2.0) {
+                Ok(Progress::End) => panic!("{method:?} passes"),
+                Ok(_) => {}
+                Err(halt) => break halt,
+            }
+        };
+        assert!(halt.why == Why::Newton && (halt.t - 0.5).abs() < 1e-9, "{method:?}: {halt:?}");
     }
 }

@@ -11,7 +11,7 @@ const LATER: f64 = 1.2;
 impl Integration {
     /// Tries steps until one succeeds: `trial` is complete then. True if it ends at `until`.
     pub(super) fn attempt(&mut self, system: &mut dyn System, until: f64, left: f64) -> Result<bool, Why> {
-        let mut failures = 0;
+        let (mut failures, mut reason) = (0, Why::StepSize);
         let followed = system.longest(self.node.state.at());
         loop {
             let t = self.node.state.t;
@@ -34,7 +34,7 @@ impl Integration {
                 (h, ends) = (ahead - t, false);
             }
             if h.is_nan() || h <= shortest(t, until) {
-                return Err(self.too_short(t, Why::StepSize));
+                return Err(self.too_short(t, reason));
             }
             let scheme = active(&mut self.scheme, &mut self.bridge, self.bridging.is_some());
             let tried = scheme.attempt(system, &mut self.engine, &self.node, h, &mut self.trial);
@@ -75,8 +75,9 @@ impl Integration {
                 continue;
             }
             self.h = retry.min(0.9 * h);
+            reason = if matches!(why, Why::Error(_)) { Why::StepSize } else { why };
             if failures > 60 || t + self.h <= t {
-                return Err(self.too_short(t, if matches!(why, Why::Error(_)) { Why::StepSize } else { why }));
+                return Err(self.too_short(t, reason));
             }
         }
     }

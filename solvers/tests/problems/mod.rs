@@ -33,7 +33,7 @@ pub(crate) use linear::{InductanceMotor, StiffPair};
 pub(crate) use linkages::{FourBarTwin, NFourBar, RodChain, SliderCrank};
 pub(crate) use pendulum::{Pendulum, PendulumAngle};
 pub(crate) use skate::Skate;
-pub(crate) use switched::{BouncingBall, DryOscillator, KinkedSpring, RecordAt, StopAt};
+pub(crate) use switched::{BouncingBall, DryOscillator, KinkedSpring, RecordAt, StopAt, Wavering};
 pub(crate) use tops::{FreeBody, HeavyTop, HeavyTopCartesian};
 
 /// One of every kind, for tests that hold for all.

@@ -289,6 +289,49 @@ impl Problem for KinkedSpring {
     }
 }
 
+/// A mass without force until t = ½ s; from then on each evaluation gives a force of the other sign, so that no iteration ends, however short
+/// the step.
+#[derive(Clone, Debug)]
+pub(crate) struct Wavering {
+    base: Base,
+    force: f64,
+}
+
+impl Wavering {
+    pub(crate) fn new() -> Self {
+        scaled(Self { base: one(0, 0), force: 1e20 }, |p| &mut p.base, &[])
+    }
+}
+
+impl System for Wavering {
+    stored!();
+    vectors!();
+    smooth!();
+    conservative!();
+
+    fn terms(&mut self, at: At<'_>, stage: Stage, out: &mut Terms) {
+        out.mass.values_mut()[0] = 1.0;
+        if stage >= Stage::Dynamics {
+            self.force = -self.force;
+            out.force[0] = if at.t > 0.5 { self.force } else { 0.0 };
+        }
+    }
+
+    fn tangent(&mut self, _: At<'_>, _: &[f64], _: &[f64], out: &mut Tangent) {
+        clear(out);
+    }
+}
+
+impl Problem for Wavering {
+    fn start(&self) -> State {
+        State { v: vec![1.0], ..State::new(self.base.dims) }
+    }
+
+    fn energy(&self, _: &State) -> f64 {
+        0.0
+    }
+}
+
 /// x = sin t, watched at x = c: mode 1 below, −1 above.
 #[derive(Clone, Debug)]
 pub(crate) struct Gate<const STOP: bool> {
