@@ -122,12 +122,32 @@ export async function what_is_pointed_at_is_named(open) {
   const names = await tab.evaluate(() => grashof.names());
   const place = (text) => names.find((name) => name.text === text).at;
   assert.match(await told(tab, place('A')), /^A: revolute, .*crank/);
-  assert.equal(await told(tab, place('coupler')), 'coupler');
+  // the path of its middle runs there, too
+  assert.equal(await told(tab, place('coupler')), 'coupler\npath of coupler.com');
   assert.equal(await told(tab, [4, 4]), null);
   const spatial = (await open('stewart_platform', { study: 'ride' })).tab;
   await seen(spatial);
   const { at } = (await spatial.evaluate(() => grashof.names())).find(({ text }) => text === 'cylinder2');
   assert.equal(await told(spatial, at), 'cylinder2');
+}
+
+export async function what_stands_behind_another_body_is_not_what_one_points_at(open) {
+  const { tab } = await open('behind');
+  await tab.getByRole('checkbox', { name: 'names' }).uncheck();
+  await seen(tab);
+  const { x, y, width, height } = await tab.locator('.canvas').boundingBox();
+  const across = async () => {
+    const all = new Set();
+    for (let k = 0; k <= 40; k++) all.add(await told(tab, [(width * k) / 40, height / 2 + 12]));
+    return [...all].filter((text) => text !== null).map((text) => text.split(':')[0]).sort();
+  };
+  assert.deepEqual(await across(), ['near']);
+  // half a turn of the view
+  await tab.mouse.move(x + 20, y + height / 2);
+  await tab.mouse.down();
+  await tab.mouse.move(x + 20 + Math.PI / 0.008, y + height / 2, { steps: 4 });
+  await tab.mouse.up();
+  assert.deepEqual(await across(), ['back', 'near']);
 }
 
 export async function names_without_room_are_told(open) {

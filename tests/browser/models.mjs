@@ -478,6 +478,16 @@ studies:
   modes: { modes: { at: statics } }
   damped: { modes: { at: statics, damped: true } }
 `,
+  behind: `grashof: 1
+name: behind
+space: spatial
+gravity: none
+ground: { F: [0, -1 m, 0], B: [20 cm, 1 m, 0] }
+bodies: { near: { plate: { size: [1 m, 10 cm, 1 m], mass: 1 kg } }, back: { plate: { size: [50 cm, 10 cm, 50 cm], mass: 1 kg } } }
+joints: { F: { revolute: [ground.F, near.origin], axis: [0, 1, 0] }, B: { revolute: [ground.B, back.origin], axis: [0, 1, 0] } }
+start: { F.omega: 0, B.omega: 0 }
+studies: { rest: { dynamics: { until: 1 s }, view: front } }
+`,
 };
 
 /** Files beside these models. */

@@ -14,6 +14,7 @@ import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
+import { front } from './front';
 import { type Face, add, ball, dot, facing, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
@@ -28,6 +29,8 @@ const AXES_HEIGHT = 70;
 /** Room on each side of a picture beyond that which is left around all drawings, pixels. */
 const BESIDE = 11;
 const NARROW = 480;
+/** What lies so much deeper than a face in front of it is hidden by it, as part of the size. */
+const MARGIN = 0.04;
 /** Joints whose second body slides on a guide of the first. */
 const SLIDES = ['slider', 'prismatic', 'cylindrical'];
 /** What is drawn of a picture in space, with its distance from the eye. */
@@ -130,7 +133,11 @@ class Space implements Renderer {
   }
 
   pointed(at: Point): string | null {
-    return pointed(this.motion, this.place, (seen) => this.pixel(seen), this.shown ? this.paths.map(({ name, points }) => ({ name, points: points.map((p) => this.pixel(p)) })) : [], at);
+    const { motion, place } = this;
+    const stand = { direction: (body: number, along: Vector) => motion.direction(body, along, place), world: (body: number, own: Vector) => motion.world({ body, at: own }, place) };
+    const sight = { right: this.right, above: this.above, toEye: this.toEye, scale: this.scale, pixel: (seen: Vector) => this.pixel(seen), depth: (seen: Vector) => this.depth(seen) };
+    const paths = this.shown ? this.paths.map(({ name, points }) => ({ name, points: points.map((p) => this.pixel(p)) })) : [];
+    return pointed(motion, place, sight.pixel, paths, at, front(this.faces.all, stand, sight, at, MARGIN * this.size));
   }
 
   scales(): Told[] {
