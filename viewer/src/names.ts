@@ -46,17 +46,21 @@ const SIGN = 6;
 const MARKS = 9;
 /** Room that a name needs to come back, pixels, so that one that just fits does not come and go. */
 const BACK = 5;
-/** Where a text begins from its joint: to the right and upwards first, where a name is looked for; then farther away, at the end of a line. */
+/** Where a text begins from its joint: to the right and upwards first, where a name is looked for; then farther away, at the end of a line, which is longer where much is in the way. */
 const near = (w: number): Point[] => [[9, -8], [9, 16], [-9 - w, -8], [-9 - w, 16], [-w / 2, -14], [-w / 2, 22], [13, 4], [-13 - w, 4]];
 const far = (w: number): Point[] => [[22, -24], [22, 32], [-22 - w, -24], [-22 - w, 32], [-w / 2, -32], [-w / 2, 42], [36, 4], [-36 - w, 4]];
-const SIDES = 16;
+const farther = (w: number): Point[] => [[44, -52], [44, 60], [-44 - w, -52], [-44 - w, 60], [-w / 2, -62], [-w / 2, 72], [72, 4], [-72 - w, 4]];
 const NEAR = 8;
+const SIDES = 3 * NEAR;
+/** The sides of joints, which all have their names. */
+const OF_JOINTS = 2 * NEAR;
 /** The side of a name that lies on its body. */
-const ON = 16;
-/** How bad it is, at a place of the motion, to meet a name (for that of a joint more), the edge of the picture or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
+const ON = SIDES;
+/** How bad it is, at a place of the motion, to meet a name (for that of a joint more), the edge of the picture or its corner that is taken, or a joint, to stand nearer to a wrong joint or to a wrong body, or in front of one in space. */
 const COST = { name: 10, joints: 20, edge: 12, joint: 9, wrong: 9, astray: 3.5, over: 4 };
-/** How bad a line is, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
+/** How bad a line is, how much worse a longer one, and by how much the next side is worse than the one before; how much better another side must be than that of before. */
 const LINE = 2.5;
+const LONGER = 0.7;
 const NEXT = 0.1;
 const STAY = 0.6;
 /** From which cost on a body has no name, and the part of the picture that all names may cover if bodies are to have theirs. */
@@ -76,7 +80,7 @@ const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room 
 /** The box of a text on one of its sides, where a sign takes more room than that of a joint. */
 function boxOn(side: number, [x, y]: Point, { width, room }: Pick<Group, 'width' | 'room'>): Box {
   if (side === ON) return [x - width / 2, y - 6, x + width / 2, y + 6];
-  let [dx, dy] = (side < NEAR ? near(width) : far(width))[side % NEAR]!;
+  let [dx, dy] = [near, far, farther][Math.floor(side / NEAR)]!(width)[side % NEAR]!;
   if (side < NEAR && dx > 0) dx += room;
   else if (side < NEAR && dx < -width) dx -= room;
   else if (side < NEAR) dy += Math.sign(dy) * room;
@@ -143,7 +147,8 @@ export class Names {
   private seenParts: SeenPart[] = [];
   private readonly inSpace: boolean;
 
-  constructor(motion: Motion) {
+  /** Names of a motion, clear of what stands in the lower left corner of the picture. */
+  constructor(motion: Motion, private readonly corner: Point = [0, 0]) {
     const joints = motion.scene.joints.filter(({ kind }) => kind !== 'distance');
     const { bodies, links, traces } = motion.scene;
     this.inSpace = motion.scene.dimensions === 3;
@@ -227,7 +232,7 @@ export class Names {
     for (let round = 0; round < ROUNDS; round++) {
       for (const group of this.groups) {
         taken.delete(group);
-        this.choose(group, SIDES, before.get(group.text), taken, size);
+        this.choose(group, OF_JOINTS, before.get(group.text), taken, size);
         take(group);
       }
     }
@@ -267,7 +272,7 @@ export class Names {
     const { points } = group;
     let least = Infinity;
     for (let side = 0; side < sides; side++) {
-      const first = (side < NEAR || side === ON ? 0 : LINE) + (side === ON ? -NEXT : NEXT * (side % NEAR)) - (before === side ? STAY : 0);
+      const first = (side < NEAR || side === ON ? 0 : LINE) + (side >= 2 * NEAR && side < ON ? LONGER : 0) + (side === ON ? -NEXT : NEXT * (side % NEAR)) - (before === side ? STAY : 0);
       const cost = this.cost(group, side, taken, size, (least - first) * points.length) / points.length + first;
       if (cost < least) [least, group.side] = [cost, side];
     }
@@ -281,7 +286,7 @@ export class Names {
       const own = group.points[k]!;
       const free = boxOn(side, own, group);
       const box = within(free, size);
-      if (box[0] !== free[0] || box[1] !== free[1]) sum += COST.edge;
+      if (box[0] !== free[0] || box[1] !== free[1] || (box[0] < this.corner[0] && box[3] > size[1] - this.corner[1])) sum += COST.edge;
       for (const boxes of taken.values()) if (overlap(box, boxes[k]!, 1)) sum += group.other ? COST.name : COST.joints;
       if (this.inSpace && group.bodies.length > 0) sum += COST.over * this.seenParts.filter((part) => !group.bodies.includes(part.body) && covers(part, k, box)).length;
       const away = toBox(own, box).far;

@@ -73,7 +73,7 @@ class Space implements Renderer {
 
   constructor(context: CanvasRenderingContext2D, private readonly motion: Motion, private readonly arrows: Arrows) {
     this.pen = new Pen(context);
-    this.names = new Names(motion);
+    this.names = new Names(motion, [AXES, AXES_HEIGHT]);
     this.up = unit(motion.scene.up);
     const { level, azimuth, elevation } = motion.scene.view!;
     this.level = level;
