@@ -8,6 +8,7 @@ use super::{
 use crate::expression::LookupTable;
 use crate::geometry::{MassProperties, Pose, Space};
 use crate::scalar::Scalar;
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ pub struct Body<G: Space> {
     /// Point masses and rotors.
     pub attached: Vec<Attached<G>>,
     /// Named points in the body frame, m; as in the model.
-    pub points: Vec<(String, G::Vector)>,
+    pub points: Vec<(Cow<'static, str>, G::Vector)>,
     /// Points that outline it in drawings beside its joints and points, body frame, m.
     pub drawn: Vec<G::Vector>,
     /// Its shape, if the model gives one.

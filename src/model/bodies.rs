@@ -2,6 +2,7 @@
 
 use super::place::Place;
 use crate::expression::Id;
+use std::borrow::Cow;
 
 /// Gravity of a body in a field: expressions of the coordinates of its centre of mass.
 #[derive(Clone, Debug)]
@@ -122,7 +123,7 @@ pub enum Shape {
 #[derive(Clone, Debug)]
 pub struct Point {
     /// Its name.
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// Its position in the body frame, m.
     pub at: PointAt,
     /// How its own axes stand in the body frame: roll, pitch, yaw, rad; as those of the body if omitted.
@@ -131,8 +132,8 @@ pub struct Point {
 
 impl Point {
     /// A point that a body has by itself.
-    pub(crate) fn of_shape(name: &str, at: PointAt) -> Self {
-        Self { name: name.to_owned(), at, rpy: None }
+    pub(crate) fn of_shape(name: &'static str, at: PointAt) -> Self {
+        Self { name: name.into(), at, rpy: None }
     }
 }
 

@@ -385,7 +385,7 @@ impl<'a> NameSpace<'a> {
     /// A body without that point.
     pub(crate) fn no_point(&self, body: usize, point: &str, rest: &str) -> Unknown {
         let body = &self.model.bodies[body];
-        let known = || body.points.iter().map(|p| p.name.as_str());
+        let known = || body.points.iter().map(|p| &*p.name);
         let help = suggest::nearest(point, known()).map(|near| format!("did you mean `{}.{near}{rest}`?", body.name));
         let list = suggest::known(known()).unwrap_or_default();
         unknown(format!("`{}` has no point `{point}`", body.name), format!("one of its points {list}"), help)

@@ -50,7 +50,7 @@ impl Model {
         match quantity {
             Quantity::Time => "t".into(),
             Quantity::Point { at, axis: k, order } => {
-                let point = self.bodies.get(at.body).and_then(|b| b.points.get(at.point)).map_or("?", |p| p.name.as_str());
+                let point = self.bodies.get(at.body).and_then(|b| b.points.get(at.point)).map_or("?", |p| &*p.name);
                 let point = if at.point == 0 { String::new() } else { format!(".{point}") };
                 format!("{}{point}.{}{}", body(at.body), rate(order), axis(k))
             }

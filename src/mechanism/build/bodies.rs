@@ -56,7 +56,7 @@ impl<G: Space> Builder<'_, G> {
                 let figures = self.figures(&body.inertia, place);
                 bare.inertia = G::tensor(figures);
             }
-            let mut points = Vec::new();
+            let mut points = Vec::with_capacity(body.points.len());
             for point in &body.points {
                 let at = match &point.at {
                     PointAt::Origin => G::Vector::default(),

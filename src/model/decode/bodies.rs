@@ -117,7 +117,9 @@ impl<'n> Decoder<'n> {
             place: "ground".to_owned(),
         });
         let section = At::ROOT.key("bodies");
-        for (name, node) in self.section("bodies") {
+        let all = self.section("bodies");
+        self.name_space.model.bodies.reserve_exact(all.len());
+        for (name, node) in all {
             let body = self.body(name, node, &section.key(name));
             self.name_space.model.bodies.push(body);
         }
@@ -291,7 +293,7 @@ impl<'n> Decoder<'n> {
                 (self.space_vector(Some(value), &here, Dimension::LENGTH), None)
             };
             // a faulty point exists all the same, so that its users are not blamed
-            points.push(Point { name: name.to_owned(), at: position.map_or(PointAt::Origin, PointAt::Given), rpy });
+            points.push(Point { name: name.to_owned().into(), at: position.map_or(PointAt::Origin, PointAt::Given), rpy });
         }
     }
 
@@ -304,8 +306,8 @@ impl<'n> Decoder<'n> {
             let point = keys.at.text().unwrap_or("origin");
             let index = points.iter().position(|p| p.name == point);
             if index.is_none() {
-                let list = suggest::known(points.iter().map(|p| p.name.as_str())).unwrap_or_default();
-                let help = suggest::nearest(point, points.iter().map(|p| p.name.as_str())).map(|near| format!("did you mean `{near}`?"));
+                let list = suggest::known(points.iter().map(|p| &*p.name)).unwrap_or_default();
+                let help = suggest::nearest(point, points.iter().map(|p| &*p.name)).map(|near| format!("did you mean `{near}`?"));
                 let fault = self.fault(
                     "unknown-point",
                     &here.key(keys.at),

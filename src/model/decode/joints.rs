@@ -150,7 +150,9 @@ pub(crate) static JOINT: Record = Record {
 impl<'n> Decoder<'n> {
     pub(super) fn joints(&mut self) {
         let section = At::ROOT.key("joints");
-        for (name, node) in self.section("joints") {
+        let all = self.section("joints");
+        self.name_space.model.joints.reserve_exact(all.len());
+        for (name, node) in all {
             let joint = self.joint(name, node, &section.key(name));
             let index = joint.map(|joint| {
                 self.name_space.model.joints.push(joint);

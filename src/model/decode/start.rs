@@ -58,12 +58,14 @@ keys! {
 impl<'n> Decoder<'n> {
     pub(super) fn start(&mut self) {
         let section = At::ROOT.key("start");
-        let mut given = HashMap::new();
-        for (path, node) in self.section("start") {
+        let mut given: HashMap<Quantity, usize> = HashMap::new();
+        let all = self.section("start");
+        self.name_space.model.start.reserve_exact(all.len());
+        for (path, node) in all {
             let at = section.key(path);
             let Some((quantity, form)) = self.start_quantity(path, &at) else { continue };
-            if let Some(other) = given.get(&quantity) {
-                let message = format!("this quantity is given already, in `{other}`");
+            if let Some(&other) = given.get(&quantity) {
+                let message = format!("this quantity is given already, in `{}`", self.name_space.model.start[other].place);
                 let fault = self.fault("duplicate-start", &at, message, "one value for a quantity");
                 fault.spot = Spot::Key;
                 fault.help = Some("remove one of the two".to_owned());
@@ -99,7 +101,7 @@ impl<'n> Decoder<'n> {
             };
             if let Some((value, guess)) = value {
                 let place = self.place(&at);
-                given.insert(quantity, place.clone());
+                given.insert(quantity, self.name_space.model.start.len());
                 self.name_space.model.start.push(Start { name: path.to_owned(), quantity, value, guess, place });
             }
         }

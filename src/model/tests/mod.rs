@@ -76,7 +76,7 @@ fn numbers_are_si_and_names_are_indices() {
     assert_eq!(value(&model, model.gravity[1]), -9.81);
     let names: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
     assert_eq!(names, ["ground", "crank", "coupler", "rocker"]);
-    let rocker: Vec<&str> = model.bodies[3].points.iter().map(|p| p.name.as_str()).collect();
+    let rocker: Vec<&str> = model.bodies[3].points.iter().map(|p| &*p.name).collect();
     assert_eq!(rocker, ["origin", "com", "start", "end", "B", "tip"]);
     assert_eq!(model.joints[2].b, PointRef { body: 3, point: 4 });
     assert_eq!(model.bodies[3].attached[0].at, 5);

@@ -53,7 +53,7 @@ fn of_mechanism<G: Space<S = f64>>(mechanism: &Mechanism<G>, scene: &Scene) -> V
     for (b, body) in mechanism.bodies.iter().enumerate().skip(1) {
         for (name, p) in &body.points {
             let at_joint = mechanism.joints.iter().any(|j| [j.a, j.b].iter().any(|(k, x)| *k == b && same::<G>(*x, *p)));
-            if !["origin", "com", "start", "end"].contains(&name.as_str()) && !at_joint {
+            if !["origin", "com", "start", "end"].contains(&&**name) && !at_joint {
                 found.push((format!("{}.{name}", body.name), b, *p));
             }
         }
