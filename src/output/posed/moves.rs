@@ -10,6 +10,8 @@ use std::f64::consts::TAU;
 const SEEN: f64 = 0.015;
 /// The smallest turn that has one, rad.
 const TURNED: f64 = 0.05;
+/// How far the way of a tip is from that of the joint or mass of its body at least, as part of that way.
+const OTHERWISE: f64 = 0.2;
 
 /// Where a place of a body was and where it is, m.
 type Way = [[f64; 3]; 2];
@@ -33,7 +35,7 @@ impl Posed<'_> {
                 let known: [f64; 3] = found.first().map(shift).unwrap_or_default();
                 let apart = |way: &Way| length(&[known, shift(way)]);
                 let other = corners.iter().map(way).max_by(|a, b| apart(a).total_cmp(&apart(b)));
-                found.extend(other.filter(|way| apart(way) >= 0.5 * length(&[[0.0; 3], known])));
+                found.extend(other.filter(|way| apart(way) >= OTHERWISE * length(&[[0.0; 3], known])));
             }
             found.retain(|way| length(way) >= seen);
             let turn = self.turn(body, [rest, poses]);
