@@ -100,33 +100,11 @@ struct Quotient {
 impl Quotient {
     fn new(pattern: &Sparsity, first: usize) -> Self {
         let n = pattern.columns();
-        let pairs = || pattern.places().filter(|(i, j)| i != j);
-        let mut begins = vec![0; n + 1];
-        pairs().for_each(|(i, j)| [i, j].iter().for_each(|&i| begins[i + 1] += 1));
-        (0..n).for_each(|i| begins[i + 1] += begins[i]);
-        let (mut next, mut touched) = (begins.clone(), vec![0; begins[n]]);
-        for (i, j) in pairs() {
-            for (i, j) in [(i, j), (j, i)] {
-                touched[next[i]] = j as u32;
-                next[i] += 1;
-            }
-        }
         // an entry and the one across the diagonal are one neighbour
-        let mut end = 0;
-        for i in 0..n {
-            let all = begins[i]..begins[i + 1];
-            begins[i] = end;
-            touched[all.clone()].sort_unstable();
-            for k in all {
-                if end == begins[i] || touched[end - 1] != touched[k] {
-                    touched[end] = touched[k];
-                    end += 1;
-                }
-            }
-        }
-        begins[n] = end;
-        touched.truncate(end);
-        touched.shrink_to_fit();
+        let pairs = pattern.places().filter(|(i, j)| i != j).flat_map(|(i, j)| [(i, j), (j, i)]);
+        let neighbours = Sparsity::new(n, n, pairs);
+        let begins: Vec<usize> = (0..n).map(|i| neighbours.range(i).start).chain([neighbours.entries()]).collect();
+        let touched = neighbours.places().map(|(_, j)| j as u32).collect();
         let degree: Vec<u32> = begins.windows(2).map(|ends| (ends[1] - ends[0]) as u32).collect();
         let queue: Vec<_> = degree.iter().zip(0..).map(|(degree, i)| Reverse((i as usize >= first, *degree, i))).collect();
         Self {
