@@ -62,15 +62,20 @@ export function around(points: Point[]): Box {
   return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 }
 
+/** The part of the way from one point to another at which it is nearest to a third, from 0 to 1. */
+export function part([x, y]: Point, [ax, ay]: Point, [bx, by]: Point): number {
+  const [dx, dy] = [bx - ax, by - ay];
+  return Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+}
+
 /** How far a point is from a line in the picture; 0 within an edge. */
 export function away([x, y]: Point, line: Point[], closed: boolean): number {
   let [least, inside] = [Infinity, false];
   for (let i = closed ? 0 : Math.min(1, line.length - 1); i < line.length; i++) {
     const [[ax, ay], [bx, by]] = [line[(i || line.length) - 1]!, line[i]!];
-    const [dx, dy] = [bx - ax, by - ay];
-    const s = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
-    least = Math.min(least, Math.hypot(ax + s * dx - x, ay + s * dy - y));
-    if (ay > y !== by > y && x < ax + ((y - ay) / dy) * dx) inside = !inside;
+    const s = part([x, y], [ax, ay], [bx, by]);
+    least = Math.min(least, Math.hypot(ax + s * (bx - ax) - x, ay + s * (by - ay) - y));
+    if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) inside = !inside;
   }
   return closed && inside ? 0 : least;
 }

@@ -1,7 +1,7 @@
 // What a reader points at in a drawing.
 
 import type { Motion, Vector } from './motion';
-import { away, corners, extent, outline } from './outlines';
+import { away, corners, extent, outline, part } from './outlines';
 import { type Point, hull } from './plane/pen';
 import { turns } from './plane/signs';
 import { stagesOf } from './telescope';
@@ -55,7 +55,6 @@ export function pointed(motion: Motion, place: number, pixel: (at: Vector) => Po
 
 /** The place on a line between two places, or the one place, that is seen nearest to a point. */
 function nearest([from, to = from]: Vector[], [p, q = p]: Point[], at: Point): Vector {
-  const [dx, dy] = [q![0] - p![0], q![1] - p![1]];
-  const s = Math.min(Math.max(((at[0] - p![0]) * dx + (at[1] - p![1]) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+  const s = part(at, p!, q!);
   return from!.map((x, i) => x + s * (to![i]! - x)) as Vector;
 }

@@ -25,7 +25,7 @@ interface Stand {
 /** The body whose face is nearest to the eye at a point, with all that lies deeper by more than `margin` (m) hidden; one that is seen through counts where nothing else is. */
 export function front(all: Face[][], stand: Stand, sight: Sight, at: Point, margin: number): Front | null {
   let nearest: { body: number; depth: number; clear: boolean } | null = null;
-  all.forEach((faces, body) => {
+  for (const [body, faces] of all.entries()) {
     for (const { points, normal, clear = false } of faces) {
       const out = stand.direction(body, normal);
       const towards = dot(out, sight.toEye);
@@ -38,7 +38,7 @@ export function front(all: Face[][], stand: Stand, sight: Sight, at: Point, marg
       const depth = sight.depth(world[0]!) - (dot(out, sight.right) * x + dot(out, sight.above) * y) / towards;
       if (!nearest || (nearest.clear === clear ? depth > nearest.depth : nearest.clear)) nearest = { body, depth, clear };
     }
-  });
-  const found = nearest as { body: number; depth: number; clear: boolean } | null;
+  }
+  const found = nearest;
   return found && { body: found.body, hides: (point, own) => !found.clear && !own.includes(found.body) && sight.depth(point) < found.depth - margin };
 }
