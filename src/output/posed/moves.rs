@@ -1,12 +1,13 @@
 //! How bodies have moved from rest, in the picture.
 
 use super::Posed;
+use super::traces::{rotation, size};
 use crate::output::pose::Move;
-use crate::output::view::{cross, dot};
+use crate::output::view::dot;
 use crate::results::scene::{Place, Shape};
 use std::f64::consts::TAU;
 
-/// The shortest way that has an arrow, as part of how far joints are apart.
+/// The shortest way that has an arrow, as part of the size of what is seen of joints.
 const SEEN: f64 = 0.015;
 /// The smallest turn that has one, rad.
 const TURNED: f64 = 0.05;
@@ -22,40 +23,56 @@ impl Posed<'_> {
     pub(super) fn moves(&self, rest: &[f64]) -> Vec<Move> {
         let Some(&poses) = self.frames.first() else { return Vec::new() };
         let way = |place: &Place| [self.scene.world(rest, place), self.scene.world(poses, place)];
-        let seen = SEEN * self.apart(rest);
-        let mut shifts: Vec<Way> = Vec::new();
+        let size = size(self.scene);
+        let seen = SEEN * if size > 0.0 { size } else { 1.0 };
+        let near = 0.1 * seen;
+        let mut joints: Vec<Vec<Way>> = vec![Vec::new(); self.scene.bodies.len()];
+        let mut all = Vec::new();
+        for joint in &self.scene.joints {
+            // the points of both bodies, of a slide only that which slides
+            let mut ways = Vec::new();
+            for place in [&joint.a, &joint.b].into_iter().skip(usize::from(joint.stroke.is_some())) {
+                let way = way(place);
+                joints[place.body].push(way);
+                add(&mut ways, way, near);
+            }
+            all.append(&mut ways);
+        }
         let mut turns = Vec::new();
-        for body in 1..self.scene.bodies.len() {
-            let joints: Vec<Place> = self.joints_of(body).collect();
-            let [marked, corners] = self.places_of(body);
-            let mut found: Vec<Way> = Vec::new();
-            joints.iter().chain(&marked).map(way).for_each(|way| add(&mut found, way, 0.1 * seen));
+        for (body, joints) in joints.iter().enumerate().skip(1) {
+            let [marked, corners] = self.places_of(body).map(|places| places.iter().map(way).collect::<Vec<_>>());
+            let mut found = Vec::new();
+            for way in joints {
+                add(&mut found, *way, near);
+            }
+            for &way in &marked {
+                if add(&mut found, way, near) {
+                    all.push(way);
+                }
+            }
             if found.len() < 2 {
                 let shift = |[from, to]: &Way| std::array::from_fn(|i| to[i] - from[i]);
                 let known: [f64; 3] = found.first().map(shift).unwrap_or_default();
                 let apart = |way: &Way| length(&[known, shift(way)]);
-                let other = corners.iter().map(way).max_by(|a, b| apart(a).total_cmp(&apart(b)));
-                found.extend(other.filter(|way| apart(way) >= OTHERWISE * length(&[[0.0; 3], known])));
+                let other = corners.into_iter().max_by(|a, b| apart(a).total_cmp(&apart(b)));
+                let other = other.filter(|way| apart(way) >= OTHERWISE * length(&[[0.0; 3], known]));
+                found.extend(other);
+                all.extend(other);
             }
-            found.retain(|way| length(way) >= seen);
-            let turn = self.turn(body, [rest, poses]);
-            if found.is_empty() && dot(turn, turn).sqrt() >= TURNED {
-                let about = joints.first().or(marked.first()).cloned().unwrap_or(Place { body, at: vec![0.0; self.scene.dimensions] });
-                turns.push(self.turned(way(&about)[1], turn));
+            let pose = (body - 1) * self.scene.stride()..body * self.scene.stride();
+            let [from, to] = [rest, poses].map(|poses| poses.get(pose.clone()).unwrap_or_default());
+            let turn = rotation(from, to);
+            if dot(turn, turn).sqrt() >= TURNED && found.iter().all(|way| length(way) < seen) {
+                let origin = || way(&Place { body, at: vec![0.0; self.scene.dimensions] });
+                let about = joints.first().or(marked.first()).copied().unwrap_or_else(origin);
+                turns.push(self.turned(about[1], turn));
             }
-            found.into_iter().for_each(|way| add(&mut shifts, way, 0.1 * seen));
         }
         let shift = |way: Way| {
             let [from, to] = way.map(|at| self.view.flat(at));
             Move::Shift { from, to }
         };
-        shifts.into_iter().map(shift).chain(turns).collect()
-    }
-
-    /// The points of the joints of a body, of a slide only that which slides.
-    fn joints_of(&self, body: usize) -> impl Iterator<Item = Place> {
-        let ends = self.scene.joints.iter().flat_map(|joint| [(joint.stroke.is_some(), &joint.a), (false, &joint.b)]);
-        ends.filter(move |(guide, place)| !guide && place.body == body).map(|(_, place)| place.clone())
+        all.into_iter().filter(|way| length(way) >= seen).map(shift).chain(turns).collect()
     }
 
     /// Masses and middles of what is round on a body, and its corners.
@@ -76,34 +93,6 @@ impl Posed<'_> {
         [marked, corners].map(|places| places.into_iter().map(|at| Place { body, at }).collect())
     }
 
-    /// The diagonal of the room that joints take in some poses; 1 if that is a point, m.
-    fn apart(&self, poses: &[f64]) -> f64 {
-        let mut ends = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for joint in &self.scene.joints {
-            let at = self.scene.world(poses, &joint.b);
-            ends = [std::array::from_fn(|i| ends[0][i].min(at[i])), std::array::from_fn(|i| ends[1][i].max(at[i]))];
-        }
-        Some(length(&ends)).filter(|most| most.is_finite() && *most > 0.0).unwrap_or(1.0)
-    }
-
-    /// The turn of a body from one pose to another, rad, along its axis.
-    fn turn(&self, body: usize, poses: [&[f64]; 2]) -> [f64; 3] {
-        let stride = self.scene.stride();
-        match poses.map(|poses| poses.get((body - 1) * stride..body * stride).unwrap_or_default()) {
-            [&[_, _, from], &[_, _, to]] => [0.0, 0.0, to - from],
-            [&[_, _, _, a, b, c, d], &[_, _, _, w, x, y, z]] => {
-                // the quaternion after times the conjugate of the one before
-                let (before, after) = ([b, c, d], [x, y, z]);
-                let across = cross(before, after);
-                let part: [f64; 3] = std::array::from_fn(|i| a * after[i] - w * before[i] + across[i]);
-                let (sine, cosine) = (dot(part, part).sqrt(), a * w + dot(before, after));
-                let angle = 2.0 * sine.atan2(cosine.abs()) * cosine.signum();
-                if sine > 0.0 { part.map(|x| x * angle / sine) } else { [0.0; 3] }
-            }
-            _ => [0.0; 3],
-        }
-    }
-
     /// A turn about a place.
     fn turned(&self, at: [f64; 3], turn: [f64; 3]) -> Move {
         let at = self.view.flat(at);
@@ -114,11 +103,13 @@ impl Posed<'_> {
     }
 }
 
-/// Adds a way to others, but for one that is there.
-fn add(ways: &mut Vec<Way>, way: Way, near: f64) {
-    if !ways.iter().any(|other| (0..2).all(|k| length(&[other[k], way[k]]) < near)) {
+/// Adds a way to others, but for one that is there; whether it is new.
+fn add(ways: &mut Vec<Way>, way: Way, near: f64) -> bool {
+    let new = !ways.iter().any(|other| (0..2).all(|k| length(&[other[k], way[k]]) < near));
+    if new {
         ways.push(way);
     }
+    new
 }
 
 fn length([from, to]: &Way) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::Posed;
 use crate::output::pose::Trace;
-use crate::output::view::dot;
+use crate::output::view::{cross, dot};
 use crate::results::Scene;
 use crate::results::scene::{self, Place};
 
@@ -51,16 +51,30 @@ fn turn(scene: &Scene, body: usize, frame: usize) -> f64 {
 
 /// By how much a body turns from one pose to another, rad; in space half a turn at most. 0 where that is not known.
 pub(in crate::output) fn turned(before: &[f64], after: &[f64]) -> f64 {
-    let turn = match (before, after) {
-        (&[_, _, from], &[_, _, to]) => (to - from).abs(),
-        (&[_, _, _, a, b, c, d], &[_, _, _, e, f, g, h]) => 2.0 * (a * e + b * f + c * g + d * h).abs().min(1.0).acos(),
-        _ => 0.0,
-    };
-    if turn.is_finite() { turn } else { 0.0 }
+    let turn = rotation(before, after);
+    let size = dot(turn, turn).sqrt();
+    if size.is_finite() { size } else { 0.0 }
+}
+
+/// The turn of a body from one pose to another along its axis, rad; in space half a turn at most.
+pub(super) fn rotation(before: &[f64], after: &[f64]) -> [f64; 3] {
+    match (before, after) {
+        (&[_, _, from], &[_, _, to]) => [0.0, 0.0, to - from],
+        (&[_, _, _, w, a, b, c], &[_, _, _, v, x, y, z]) => {
+            // the vector part and the scalar of the quaternion after times the conjugate of the one before
+            let (from, to) = ([a, b, c], [x, y, z]);
+            let across = cross(from, to);
+            let part: [f64; 3] = std::array::from_fn(|i| w * to[i] - v * from[i] + across[i]);
+            let (sine, cosine) = (dot(part, part).sqrt(), w * v + dot(from, to));
+            let angle = 2.0 * sine.atan2(cosine.abs()) * cosine.signum();
+            if sine > 0.0 { part.map(|x| x * angle / sine) } else { [0.0; 3] }
+        }
+        _ => [0.0; 3],
+    }
 }
 
 /// Size of what is seen of joints and paths over the motion, m.
-fn size(scene: &Scene) -> f64 {
+pub(super) fn size(scene: &Scene) -> f64 {
     let of_traces = scene.traces.iter().map(|trace| Place { body: trace.body, at: trace.at.clone() });
     let places: Vec<Place> = scene.joints.iter().flat_map(|joint| [&joint.a, &joint.b]).cloned().chain(of_traces).collect();
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
