@@ -417,6 +417,32 @@ studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }} }} }}
     }
 }
 
+/// However a leg leans towards the eye, its rod ends behind its cylinder, not in front of it.
+#[test]
+fn a_cylinder_in_space_hides_what_of_its_rod_is_in_it() {
+    for (turned, view) in [("0 deg", "top"), ("180 deg", "top"), ("90 deg", "[60 deg, 20 deg]"), ("-90 deg", "[60 deg, 20 deg]")] {
+        let text = format!(
+            "grashof: 1
+name: leg
+space: spatial
+gravity: none
+bodies:
+  cylinder: {{ mass: 1 kg, inertia: 1 kg m^2, drawn: [[0, 0, 0], [0, 0, 0.9 m]] }}
+  rod: {{ mass: 1 kg, inertia: 1 kg m^2, drawn: [[0, 0, -0.6 m], [0, 0, 0]] }}
+joints:
+  C: {{ fixed: [ground, cylinder.origin], rpy: [0, {turned}, 0] }}
+  S: {{ slider: [cylinder.origin, rod.origin], axis: [0, 0, 1] }}
+drivers: {{ pump: {{ joint: S, rise: {{ by: 20 cm, during: 8 s, law: poly5 }} }} }}
+start: {{ S.position: 1.2 m }}
+studies: {{ lift: {{ kinematics: {{ over: 8 s, samples: 20 }}, view: {view} }} }}
+"
+        );
+        let drawing = drawn(&text, "lift").1;
+        let depth = |name: &str| drawing.bodies.iter().find(|body| body.name == name).expect("a body").poses[0][0].depth;
+        assert!(depth("cylinder") > depth("rod"), "{turned} {view}: {} {}", depth("cylinder"), depth("rod"));
+    }
+}
+
 #[test]
 fn no_outline_hides_a_bearing() {
     // on the disc itself, on another body with an outline, and behind a body that only passes

@@ -24,7 +24,7 @@ name: arm
 space: spatial
 gravity: none
 parameters: {{ r: 4 cm, nothing: 0 m }}
-bodies: {{ arm: {{ mass: 1 kg, inertia: 1 kg m^2, points: {{ P: [0, 0, 50 cm] }}, drawn: [{drawn}] }} }}
+bodies: {{ arm: {{ mass: 1 kg, inertia: 1 kg m^2, points: {{ P: [0, 0, 50 cm] }}, drawn: {drawn} }} }}
 joints: {{ A: {{ revolute: [ground, arm.origin], axis: [0, 0, 1] }} }}
 studies: {{ turn: {{ dynamics: {{ until: 1 s, every: 0.5 s }} }} }}
 "
@@ -34,8 +34,8 @@ studies: {{ turn: {{ dynamics: {{ until: 1 s, every: 0.5 s }} }} }}
 
 #[test]
 fn solids_stand_where_the_model_puts_them() {
-    let all = arm("{ box: [10 cm, 20 cm, 30 cm] }, { box: [10 cm, 10 cm, 10 cm], at: [1 m, 0, 0], rpy: [0, 0, 45 deg] }, \
-         { cylinder: r, length: 40 cm, at: [20 cm, 0, 0], rpy: [0, 90 deg, 0] }, { ball: 2*r, at: [1 m, 0, 1 m] }");
+    let all = arm("[{ box: [10 cm, 20 cm, 30 cm] }, { box: [10 cm, 10 cm, 10 cm], at: [1 m, 0, 0], rpy: [0, 0, 45 deg] }, \
+         { cylinder: r, length: 40 cm, at: [20 cm, 0, 0], rpy: [0, 90 deg, 0] }, { ball: 2*r, at: [1 m, 0, 1 m] }]");
     let [Shape::Box { center, size }, Shape::Hull { points }, Shape::Cylinder { .. }, ball, Shape::Bar { from, to, width: None }] =
         &all[..]
     else {
@@ -52,9 +52,16 @@ fn solids_stand_where_the_model_puts_them() {
 }
 
 #[test]
+fn one_solid_needs_no_list() {
+    for solid in ["{ ball: r, at: [0, 0, 50 cm] }", "{ at: [0, 0, 25 cm], cylinder: r, length: 50 cm }"] {
+        assert_eq!(format!("{:?}", arm(solid)), format!("{:?}", arm(&format!("[{solid}]"))));
+    }
+}
+
+#[test]
 fn solids_without_size_are_left_out_and_flat_ones_are_flat() {
-    let all = arm("{ ball: nothing }, { cylinder: 0 m, length: 1 m }, { box: [0, 0, 0] }, \
-         { cylinder: 1 m, length: nothing, rpy: [0, 90 deg, 0] }");
+    let all = arm("[{ ball: nothing }, { cylinder: 0 m, length: 1 m }, { box: [0, 0, 0] }, \
+         { cylinder: 1 m, length: nothing, rpy: [0, 90 deg, 0] }]");
     let [Shape::Disc { radius: 1.0, axis: Some(axis), .. }] = &all[..] else { panic!("{all:?}") };
     assert!(near(axis, [1.0, 0.0, 0.0]), "{all:?}");
 }

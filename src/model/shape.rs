@@ -10,6 +10,7 @@ use super::suggest::{self, clip};
 use super::tables::{FILE, NOT_IN_VARIANTS};
 use crate::expression::Dimension;
 use serde_yaml::Value;
+use std::cmp::Reverse;
 
 /// A walk along the tables.
 pub(crate) struct Shapes<'a> {
@@ -103,7 +104,12 @@ impl Shapes<'_> {
                     Shape::List(..) => node.is_list(),
                     _ => !node.is_map() && !node.is_list(),
                 };
-                match shapes.iter().find(fits) {
+                // of several tables the one that has most of the keys
+                let keys = |shape: &&Shape| match shape {
+                    Shape::Map(table) => node.entries().iter().filter(|(key, _)| table.field(key).is_some()).count(),
+                    _ => 0,
+                };
+                match shapes.iter().filter(fits).min_by_key(|shape| Reverse(keys(shape))) {
                     Some(fitting) => self.check_as(node, fitting, at, outer),
                     None => self.wrong_type(node, at, outer),
                 }

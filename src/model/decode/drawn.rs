@@ -30,14 +30,22 @@ keys! {
     }
 }
 
-/// Points, a circle, or solids.
-pub(super) const DRAWN: Shape =
-    Shape::Either(&[Shape::Map(&CIRCLE), Shape::List(&Shape::Either(&[POSITION, Shape::Map(&SOLID)]), Size::AtLeast(1))]);
+/// Points, a circle, one solid or several.
+pub(super) const DRAWN: Shape = Shape::Either(&[
+    Shape::Map(&CIRCLE),
+    Shape::Map(&SOLID),
+    Shape::List(&Shape::Either(&[POSITION, Shape::Map(&SOLID)]), Size::AtLeast(1)),
+]);
+
+/// Whether the one table that a body is drawn as is a circle, not a solid.
+fn is_circle(node: &Node<'_>) -> bool {
+    node.get("circle").is_some()
+}
 
 impl<'n> Decoder<'n> {
     /// The circle that a body is drawn as.
     pub(super) fn circle(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Option<Circle> {
-        let circle = CircleKeys::of(entry.node.filter(|node| node.is_map())?);
+        let circle = CircleKeys::of(entry.node.filter(|node| node.is_map() && is_circle(node))?);
         let at = at.key(entry);
         let radius = self.size(circle.circle, &at, "the radius")?;
         let center = self.read_vector(circle.at, &at, Dimension::LENGTH).unwrap_or_default();
@@ -53,6 +61,9 @@ impl<'n> Decoder<'n> {
     /// The solids that a body is drawn as.
     pub(super) fn solids(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Vec<Solid> {
         let at = at.key(entry);
+        if let Some(solid) = entry.node.filter(|node| node.is_map() && !is_circle(node)) {
+            return self.solid(solid, &at).into_iter().collect();
+        }
         let (solids, points): (Vec<_>, Vec<_>) = entry.items().iter().map(Node::Plain).enumerate().partition(|(_, item)| item.is_map());
         if let ([_, ..], [(first, _), ..]) = (&solids[..], &points[..]) {
             let fault = self.fault("two-kinds", &at.index(*first), "a point in a list of solids", "solids alone, or points alone");

@@ -1,6 +1,6 @@
 //! Shapes of bodies in the picture; solids as the faces that are seen.
 
-use super::Posed;
+use super::{Posed, telescope};
 use crate::output::polytope;
 use crate::output::pose::{Form, FormKind, Width};
 use crate::output::view::{across, cross, dot};
@@ -11,8 +11,28 @@ use std::f64::consts::TAU;
 const CORNERS: usize = 96;
 /// Length of the line that shows how a gear is turned, as part of its pitch radius.
 const SPOKE: f64 = 0.8;
+/// How far points on one line are off it by rounding, as part of its length.
+const ROUND_OFF: f64 = 1e-9;
 /// Points in space that legs lead to; more than that are taken for an outline.
 const LEGS: usize = 4;
+
+/// The ends of a shape in space that is a bar: also of points that all lie on one line.
+fn ends(shape: &Shape) -> Option<[&Vec<f64>; 2]> {
+    match shape {
+        Shape::Bar { from, to, .. } => Some([from, to]),
+        Shape::Hull { points } => {
+            let apart = |a: &[f64], b: &[f64]| -> [f64; 3] { std::array::from_fn(|i| b[i] - a[i]) };
+            let size = |e: [f64; 3]| dot(e, e).sqrt();
+            let farthest = |from: &[f64]| points.iter().max_by(|a, b| size(apart(from, a)).total_cmp(&size(apart(from, b))));
+            let from = farthest(points.first()?)?;
+            let to = farthest(from)?;
+            let along = apart(from, to);
+            let off = |p: &Vec<f64>| size(cross(along, apart(from, p)));
+            (size(along) > 0.0 && points.iter().all(|p| off(p) <= ROUND_OFF * dot(along, along))).then_some([from, to])
+        }
+        _ => None,
+    }
+}
 
 /// The faces of the hull of points in space, of those that are not joined by legs.
 pub(in crate::output) fn faces_of(points: &[Vec<f64>]) -> Vec<Vec<usize>> {
@@ -26,13 +46,15 @@ impl Posed<'_> {
         let world = |at: &[f64]| self.scene.world(poses, &Place { body, at: at.to_vec() });
         let planar = self.scene.dimensions == 2;
         match shape {
-            Shape::Bar { from, to, width } => vec![self.bar(body, [world(from), world(to)], *width)],
+            Shape::Bar { from, to, width } => vec![self.bar(poses, body, [world(from), world(to)], *width)],
             Shape::Hull { points } => {
                 let places: Vec<[f64; 3]> = points.iter().map(|p| world(p)).collect();
+                let line = if planar { None } else { ends(shape) };
                 match if planar { Vec::new() } else { faces_of(points) } {
-                    _ if !planar && (3..=LEGS).contains(&places.len()) => self.legs(body, &places),
+                    _ if let Some([from, to]) = line => vec![self.bar(poses, body, [world(from), world(to)], None)],
+                    _ if !planar && (3..=LEGS).contains(&places.len()) => self.legs(poses, body, &places),
                     // a flat one is a plate
-                    _ if places.len() == 2 => vec![self.bar(body, [places[0], places[1]], None)],
+                    _ if places.len() == 2 => vec![self.bar(poses, body, [places[0], places[1]], None)],
                     faces if faces.len() < 3 => vec![self.plate(body, &places)],
                     faces => {
                         let corners = faces.iter().map(|face| face.iter().map(|k| places[*k]).collect::<Vec<_>>());
@@ -106,9 +128,9 @@ impl Posed<'_> {
     }
 
     /// A bar of a body.
-    fn bar(&self, body: usize, [a, b]: [[f64; 3]; 2], width: Option<f64>) -> Form {
+    fn bar(&self, poses: &[f64], body: usize, [a, b]: [[f64; 3]; 2], width: Option<f64>) -> Form {
         let width = width.map_or_else(|| self.width(body), Width::Given);
-        let depth = self.depth_of_bar(body).unwrap_or_else(|| 0.5 * (self.view.depth(a) + self.view.depth(b)));
+        let depth = self.depth_of_bar(body).unwrap_or_else(|| self.depth(&[a, b]).min(self.within(poses, body)));
         Form { kind: FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width }, depth }
     }
 
@@ -120,6 +142,14 @@ impl Posed<'_> {
     /// In the plane the depth of a bar of a body: cylinders lie in front of what slides in them.
     fn depth_of_bar(&self, body: usize) -> Option<f64> {
         (self.scene.dimensions == 2).then(|| f64::from(self.stages[body][1]) * f64::MIN_POSITIVE)
+    }
+
+    /// In space a depth that lies behind the bars of the cylinders in which a body slides.
+    fn within(&self, poses: &[f64], body: usize) -> f64 {
+        let around = std::iter::successors(self.cylinders[body], |cylinder| self.cylinders[*cylinder]).take(telescope::MOST as usize);
+        let bars = around.flat_map(|body| self.scene.bodies[body].shapes.iter().filter_map(move |shape| Some((body, ends(shape)?))));
+        let ends = bars.map(|(body, ends)| ends.map(|at| self.scene.world(poses, &Place { body, at: at.clone() })));
+        ends.map(|ends| self.depth(&ends)).fold(f64::INFINITY, f64::min).next_down()
     }
 
     /// In the plane large plates lie under small ones and under bars; a disc is as large as the square around it.
@@ -153,9 +183,9 @@ impl Posed<'_> {
     }
 
     /// Bars from the middle of places to each of them.
-    fn legs(&self, body: usize, places: &[[f64; 3]]) -> Vec<Form> {
+    fn legs(&self, poses: &[f64], body: usize, places: &[[f64; 3]]) -> Vec<Form> {
         let middle = std::array::from_fn(|i| places.iter().map(|p| p[i]).sum::<f64>() / places.len() as f64);
-        places.iter().map(|p| self.bar(body, [middle, *p], None)).collect()
+        places.iter().map(|p| self.bar(poses, body, [middle, *p], None)).collect()
     }
 
     /// How light a face with this outward normal is; none if it is turned away.

@@ -84,12 +84,14 @@ struct Posed<'a> {
     frames: Vec<&'a [f64]>,
     /// For each body how many cylinders are around it, and rods within it.
     stages: Vec<[u32; 2]>,
+    /// For each body the cylinder in which it slides.
+    cylinders: Vec<Option<usize>>,
 }
 
 impl<'a> Posed<'a> {
     /// A scene in some positions.
     fn of(scene: &'a Scene, frames: Vec<&'a [f64]>) -> Self {
-        Self { scene, view: view(scene), frames, stages: telescope::stages(scene) }
+        Self { scene, view: view(scene), frames, stages: telescope::stages(scene), cylinders: telescope::cylinders(scene) }
     }
 }
 

@@ -3,13 +3,22 @@
 use crate::results::Scene;
 
 /// Cylinders, one in the other, that are told apart.
-const MOST: u32 = 4;
+pub(super) const MOST: u32 = 4;
 
 /// For each body of a scene how many cylinders are around it, and rods within it, one in the other.
 pub(super) fn stages(scene: &Scene) -> Vec<[u32; 2]> {
     let slides: Vec<[usize; 2]> = scene.joints.iter().filter(|joint| joint.telescopes).map(|joint| [joint.a.body, joint.b.body]).collect();
     let turned: Vec<[usize; 2]> = slides.iter().map(|[rod, cylinder]| [*cylinder, *rod]).collect();
     (0..scene.bodies.len()).map(|body| [&slides, &turned].map(|pairs| behind(pairs, body, 0))).collect()
+}
+
+/// For each body of a scene the cylinder in which it slides.
+pub(super) fn cylinders(scene: &Scene) -> Vec<Option<usize>> {
+    let mut around = vec![None; scene.bodies.len()];
+    for joint in scene.joints.iter().filter(|joint| joint.telescopes) {
+        around[joint.a.body] = Some(joint.b.body);
+    }
+    around
 }
 
 /// How many bodies stand behind one, of pairs of a body and the next one, beside those that are known.
