@@ -38,6 +38,9 @@ pub fn write_json(results: &Results) -> String {
         "certificate": object(if several { runs(results) } else { certificate(results) }),
         "findings": findings(results),
     });
+    if !results.variants.is_empty() {
+        text["variants"] = json!(results.variants);
+    }
     if !results.statistics.is_empty() {
         text["statistics"] = results.statistics.iter().map(|s| (s.name.clone(), statistics(s))).collect::<Map<_, _>>().into();
     }
@@ -225,6 +228,8 @@ mod tests {
         let value: Value = serde_json::from_str(&text).unwrap();
         let keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
         assert_eq!(keys, ["study", "status", "parameters", "scalars", "extrema", "certificate", "findings"]);
+        let varied = write_json(&Results { variants: vec!["motor".into(), "elastic".into()], ..Results::default() });
+        assert_eq!(serde_json::from_str::<Value>(&varied).unwrap()["variants"], json!(["motor", "elastic"]));
         assert_eq!(value["parameters"], json!({ "z": 1, "a": null }));
         assert_eq!(value["scalars"]["eigenvalues"], json!([0.1, null]));
         assert_eq!(value["extrema"]["theta"]["max"], json!({ "value": 2.5, "at": 1 }));

@@ -74,6 +74,7 @@ pub fn results_schema() -> Value {
         "properties": {
             "study": { "type": "string", "description": "Name of the study." },
             "status": { "enum": ["done", "failed"], "description": "`failed` if the motion stopped on its way, or no run of a sweep finished: what was computed up to there is kept." },
+            "variants": { "type": "array", "items": { "type": "string" }, "description": "Variants of the model that it was run with, in the order in which they change it; only if there are some." },
             "parameters": { "type": "object", "additionalProperties": number("Value of the parameter."), "description": "Values of the parameters, in file order; those of a sweep are those of the file." },
             "scalars": {
                 "type": "object",

@@ -43,6 +43,9 @@ pub struct Results {
     pub study: String,
     /// Its kind: `dynamics`.
     pub kind: String,
+    /// Variants of the model that it was run with, in the order in which they change it.
+    #[serde(default)]
+    pub variants: Vec<String>,
     /// Path of the study in the file.
     pub place: String,
     /// Why it stopped on its way, if it did; what was computed up to there is kept.

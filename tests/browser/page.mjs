@@ -15,6 +15,7 @@ export async function studies_are_listed_with_what_they_are_about(open) {
 export async function a_study_is_chosen_by_keys_and_by_address(open) {
   const { tab } = await open('crank_rocker', { study: 'modes' });
   assert.equal(await tab.locator('#study-title').innerText(), 'modes');
+  assert.equal(await tab.locator('.title .kind').innerText(), 'modes, variants motor, elastic, absorber');
   await tab.locator('nav a', { hasText: 'start-up-exact' }).focus();
   await tab.keyboard.press('Enter');
   await until(tab, () => document.getElementById('study-title').textContent === 'start-up-exact');

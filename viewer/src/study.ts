@@ -24,10 +24,16 @@ export interface Kept {
 /** Milliseconds until what is out of view is made anew. */
 const REST = 20;
 
+/** Its kind, the variants of the model, and how many runs it has. */
+function whatItIs({ kind, variants, table, runs }: Study): string {
+  const which = variants.length > 0 ? [`variant${variants.length > 1 ? 's' : ''} ${variants.join(', ')}`] : [];
+  return [kind, ...which, ...(table.reasons ? [`${runs.length} runs`] : [])].join(', ');
+}
+
 /** What a page of a study is made of, but for numbers: while it is the same, the page stays. */
 function skeleton(study: Study): string {
   const of = ({ independent, table, curves }: Results) => [independent.name, independent.unit, independent.values.length > 1, [...table.columns, ...curves].map(({ name, unit, shown_in }) => [name, unit, shown_in?.unit])];
-  return JSON.stringify([study.kind, of(study), study.plots, study.table.reasons !== null, study.runs.map(({ results }) => results && of(results))]);
+  return JSON.stringify([whatItIs(study), of(study), study.plots, study.table.reasons !== null, study.runs.map(({ results }) => results && of(results))]);
 }
 
 const parts = (of: HTMLElement) => [...of.querySelectorAll<HTMLDetailsElement>('details.part')];
@@ -59,7 +65,7 @@ export class StudyView {
     this.tellAbout();
     this.element = h('article', { class: 'study', 'aria-labelledby': 'study-title' },
       h('header', { class: 'title' },
-        h('p', { class: 'kind' }, study.table.reasons ? `${study.kind}, ${study.runs.length} runs` : study.kind),
+        h('p', { class: 'kind' }, whatItIs(study)),
         h('h2', { id: 'study-title', tabindex: -1 }, study.study),
         this.about),
       // beside figures results stand below the mechanism, else beside it

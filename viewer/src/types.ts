@@ -103,6 +103,8 @@ export interface Results {
   model: string;
   study: string;
   kind: string;
+  /** Variants of the model that it was run with. */
+  variants: string[];
   place: string;
   stopped: string | null;
   undefined: { message: string; place: string; help: string } | null;

@@ -33,7 +33,10 @@ const LAST: usize = 12;
 
 /// A step changes by factors between these; the first is for safety. Against the 0.9 of `dop853.f`, 0.8 makes half to a third of
 /// the drift of energy at the same tolerance, for 5 per cent fewer to 7 per cent more evaluations (measured: slider-crank,
-/// pendulum, 1000 s at 1e-11).
+/// pendulum, 1000 s at 1e-11). Rejected: 0.6, though one step in twenty is rejected instead of one in six, and the same error of 1e-4 to
+/// 1e-8 takes 3 per cent fewer evaluations on the crank-rocker, 8 to 14 on Andrews' mechanism, 29 to 40 on forty four-bars. Such steps
+/// stay within the border of stability, so that stiffness is not noticed, and pass singular positions with a hundred times the loss of
+/// energy (measured: friction with a small stick speed crawls, six four-bars at 1e-12 lose 5e-9 J).
 const SAFETY: f64 = 0.8;
 const SHRINK: f64 = 0.333;
 const GROW: f64 = 6.0;

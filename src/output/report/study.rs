@@ -129,6 +129,7 @@ fn value(results: &Results, thin: Thinned, scenes: &[(String, Scene)]) -> Value 
         model: results.model.clone(),
         study: results.study.clone(),
         kind: results.kind.clone(),
+        variants: results.variants.clone(),
         place: results.place.clone(),
         stopped: results.stopped.clone(),
         undefined: results.undefined.clone(),

@@ -25,6 +25,7 @@ pub fn named(model: &Model, study: &Study, mut outcome: Outcome) -> Results {
         model: model.name.clone(),
         study: study.name.clone(),
         kind: study.kind.name().into(),
+        variants: model.variants.clone(),
         place: study.place.clone(),
         parameters: parameters(model, outcome.parameters.iter().map(|(_, value)| *value)),
         independent: column(model, &outcome.independent, study.independent.unwrap_or(Dimension::NONE), outcome.places),
