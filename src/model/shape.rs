@@ -104,12 +104,7 @@ impl Shapes<'_> {
                     Shape::List(..) => node.is_list(),
                     _ => !node.is_map() && !node.is_list(),
                 };
-                // of several tables the one that has most of the keys
-                let keys = |shape: &&Shape| match shape {
-                    Shape::Map(table) => node.entries().iter().filter(|(key, _)| table.field(key).is_some()).count(),
-                    _ => 0,
-                };
-                match shapes.iter().filter(fits).min_by_key(|shape| Reverse(keys(shape))) {
+                match shapes.iter().filter(fits).min_by_key(|shape| Reverse(likeness(node, shape))) {
                     Some(fitting) => self.check_as(node, fitting, at, outer),
                     None => self.wrong_type(node, at, outer),
                 }
@@ -483,5 +478,15 @@ fn components(space: Option<&str>) -> Option<usize> {
         Some("planar") => Some(2),
         Some("spatial") => Some(3),
         _ => None,
+    }
+}
+
+/// How many keys of a map are those of a table, and if none is, how many are like them.
+fn likeness(node: Node<'_>, shape: &Shape) -> (usize, usize) {
+    let Shape::Map(table) = shape else { return (0, 0) };
+    let count = |of: &dyn Fn(&str) -> bool| node.entries().iter().filter(|(key, _)| node.get(key).is_some() && of(key)).count();
+    match count(&|key| table.field(key).is_some()) {
+        0 => (0, count(&|key| suggest::nearest(key, table.fields.iter().map(|field| field.key)).is_some())),
+        known => (known, 0),
     }
 }

@@ -16,6 +16,8 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "joint-by-another-word",
             "spring-by-another-word",
             "study-key-by-another-word",
+            "drawn-one-solid",
+            "drawn-one-solid-in-the-plane",
             "drawn-solids",
             "drawn-solids-and-points",
             "drawn-solid-in-the-plane",

@@ -60,6 +60,9 @@ fn changes_are_judged_for_the_studies_that_are_named() {
     let free = "  free: { dynamics: { until: 0.1 s, every: 0.1 s }, columns: [phi3] }\n";
     place.put("model.yaml", &format!("{text}{free}"));
     place.run(&["run", "model.yaml", "--study", "free", "--variant", "bare", "--no-plots"]).ends(0);
+    assert_eq!(place.json("results/model/free.json")["variants"], serde_json::json!(["bare"]));
+    place.run(&["sweep", "model.yaml", "--study", "free", "--variant", "bare", "--over", "l1=14 cm,15 cm", "--no-plots"]).ends(0);
+    assert_eq!(place.json("results/model/free-over-l1.json")["variants"], serde_json::json!(["bare"]));
     // all studies are asked for, and some need the driver
     assert!(place.run(&["run", "model.yaml", "--variant", "bare", "--no-plots"]).ends(2).stderr.contains("drive"));
 }

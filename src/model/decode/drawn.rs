@@ -37,15 +37,15 @@ pub(super) const DRAWN: Shape = Shape::Either(&[
     Shape::List(&Shape::Either(&[POSITION, Shape::Map(&SOLID)]), Size::AtLeast(1)),
 ]);
 
-/// Whether the one table that a body is drawn as is a circle, not a solid.
-fn is_circle(node: &Node<'_>) -> bool {
-    node.get("circle").is_some()
+/// Whether the one table that a body is drawn as is a solid, not a circle.
+fn is_solid(node: &Node<'_>) -> bool {
+    ["box", "cylinder", "ball"].iter().any(|form| node.get(form).is_some()) && node.get("circle").is_none()
 }
 
 impl<'n> Decoder<'n> {
     /// The circle that a body is drawn as.
     pub(super) fn circle(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Option<Circle> {
-        let circle = CircleKeys::of(entry.node.filter(|node| node.is_map() && is_circle(node))?);
+        let circle = CircleKeys::of(entry.node.filter(|node| node.is_map() && !is_solid(node))?);
         let at = at.key(entry);
         let radius = self.size(circle.circle, &at, "the radius")?;
         let center = self.read_vector(circle.at, &at, Dimension::LENGTH).unwrap_or_default();
@@ -61,7 +61,7 @@ impl<'n> Decoder<'n> {
     /// The solids that a body is drawn as.
     pub(super) fn solids(&mut self, entry: Entry<'n>, at: &At<'_, 'n>) -> Vec<Solid> {
         let at = at.key(entry);
-        if let Some(solid) = entry.node.filter(|node| node.is_map() && !is_circle(node)) {
+        if let Some(solid) = entry.node.filter(is_solid) {
             return self.solid(solid, &at).into_iter().collect();
         }
         let (solids, points): (Vec<_>, Vec<_>) = entry.items().iter().map(Node::Plain).enumerate().partition(|(_, item)| item.is_map());
