@@ -9,6 +9,7 @@
 
 use crate::friction::Friction;
 use crate::kkt::{Kkt, ROUND_OFF};
+pub(crate) use crate::why::LONGEST_RETRY;
 pub use crate::why::{Rejected, Why};
 use crate::{At, Common, Dims, Line, Span, Stage, State, System, Terms};
 

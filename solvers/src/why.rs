@@ -60,11 +60,14 @@ impl fmt::Display for Why {
 
 impl std::error::Error for Why {}
 
+/// Longest step that is tried after a rejected one, in lengths of that one.
+pub(crate) const LONGEST_RETRY: f64 = 0.9;
+
 /// A trial that failed, and the step to try next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rejected {
     /// The reason.
     pub why: Why,
-    /// Step to try next, s.
+    /// Step to try next, s; at most 0.9 of this one is taken.
     pub retry: f64,
 }

@@ -220,7 +220,9 @@ fn rows_of_four_bars_pass_their_singular_positions() {
         let [drift, skew] = four_bars(n, 1e-12);
         assert!(drift < energy && skew < 1e-12, "{n}: {drift:e} J, {skew:e}");
     }
-    for tolerance in [1e-8, 1e-10] {
+    // the tight ones are many: whether a step ends beside a singular position is by chance
+    let tight = (0..13).map(|k| (10f64.powf(-9.0 - 0.25 * f64::from(k)), 1.0));
+    for (tolerance, times) in [(1e-8, 10.0)].into_iter().chain(tight) {
         for n in [1, 2, 6, 10] {
             let mut twin = FourBarTwin::new(n);
             let energy = twin.energy(&twin.start());
@@ -228,7 +230,7 @@ fn rows_of_four_bars_pass_their_singular_positions() {
             run(&mut twin, precise(tolerance), 10.0, |twin, node| of_twin = of_twin.max((twin.energy(&node.state) - energy).abs()));
             let [drift, skew] = four_bars(n, tolerance);
             // the twin has the inertia 1, the row of four-bars (4n + 1)/3
-            let allowed = 10.0 * of_twin * (4 * n + 1) as f64 / 3.0;
+            let allowed = times * of_twin * (4 * n + 1) as f64 / 3.0;
             assert!(drift < allowed && skew < 1e-12, "{n} {tolerance:e}: {drift:e} J, at most {allowed:e}, {skew:e}");
         }
     }

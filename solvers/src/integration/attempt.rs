@@ -3,7 +3,7 @@
 use super::foresight::shortest;
 use super::{Integration, PARTS, active};
 use crate::System;
-use crate::engine::{Control, Why};
+use crate::engine::{Control, LONGEST_RETRY, Why};
 
 /// A step may be so many times as long as the state at its end lets one be that begins there.
 const LATER: f64 = 1.2;
@@ -74,7 +74,7 @@ impl Integration {
             if !matches!(why, Why::Error(_) | Why::Lost) && self.begins_bridge(system, h, self.sigma < 0.2 * self.largest_sigma)? {
                 continue;
             }
-            self.h = retry.min(0.9 * h);
+            self.h = retry.min(LONGEST_RETRY * h);
             reason = if matches!(why, Why::Error(_)) { Why::StepSize } else { why };
             if failures > 60 || t + self.h <= t {
                 return Err(self.too_short(t, reason));

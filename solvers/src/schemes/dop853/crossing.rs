@@ -12,6 +12,9 @@
 //!   where E counts;
 //! - the error counts along the constraints at the end of the step: what lies across is removed by the projection there, and is
 //!   mostly the noise ε of Φ, which becomes εσ̇²/σ³ in accelerations of the weak direction.
+//!
+//! A step that begins or ends beside t_c is the worst: steps become tiny there, and are taken where E counts. So a tight tolerance
+//! follows σ from step to step, and ends the steps before t_c away from it.
 
 use crate::engine::{Engine, Node, Why};
 use crate::{Dims, Sigma, Span, Stage, System};
@@ -26,6 +29,14 @@ const REACH: f64 = 2.0;
 /// σ below which one is looked for; at zero itself there is no telling when it was passed.
 const NEAR: f64 = 0.2;
 const UPON: f64 = 1e-4;
+
+/// Tolerance from which on σ is followed at the ends of steps [measured, rows of one to ten four-bars at tolerances from 1e-9 to 1e-12: of 150
+/// runs 12 lose more energy than a crank of the same inertia does at that tolerance, up to 64 times, and none loses more than 0.6 of it where
+/// σ is followed, with 5 per cent fewer evaluations; above 1e-9 it makes no difference].
+const TIGHT: f64 = 1e-9;
+
+/// Distance of the end of a step from t_c, in steps, below which it ends earlier.
+const BESIDE: f64 = 0.25;
 
 /// Part of a step over which the change of σ is taken.
 const ASIDE: f64 = 1.0 / 16.0;
@@ -46,9 +57,11 @@ pub(super) struct Crossing {
     /// Time until which patience is lost, s.
     beyond: f64,
     rejected: usize,
-    /// Time and σ of the node, and of the end of the trial.
-    here: [f64; 2],
-    there: [f64; 2],
+    /// Time and σ of the last three nodes that were looked at, and of the end of the trial.
+    known: [Option<[f64; 2]>; 3],
+    trial: Option<[f64; 2]>,
+    /// Steps that need not be looked at.
+    skipped: usize,
     weakest: Sigma,
     /// Velocities (nv), and rates of positions (nq).
     shift: Vec<f64>,
@@ -64,8 +77,9 @@ impl Crossing {
             place: None,
             beyond: f64::NEG_INFINITY,
             rejected: 0,
-            here: [0.0; 2],
-            there: [0.0; 2],
+            known: [None; 3],
+            trial: None,
+            skipped: 0,
             weakest: Sigma::new(dims.rows()),
             shift: vec![0.0; dims.v],
             lifted: vec![0.0; dims.v],
@@ -87,6 +101,7 @@ impl Crossing {
     pub(super) fn forget(&mut self, engine: &Engine) {
         self.weakest.restart(engine);
         (self.place, self.beyond, self.rejected) = (None, f64::NEG_INFINITY, 0);
+        (self.known, self.trial, self.skipped) = ([None; 3], None, 0);
     }
 
     /// Looks for a singular position within reach of a step `h` (s) from a node: σ there and a little later. True if one is near.
@@ -97,6 +112,10 @@ impl Crossing {
         let t = from.state.t;
         if !self.weakest.moves(engine) || t < self.beyond {
             return Ok(false);
+        }
+        if let Some(place) = self.expected(t) {
+            self.place = (place - t < REACH * h).then_some(place);
+            return Ok(self.near());
         }
         self.node.copy_from(from);
         let sigma = self.sigma(system, engine)?;
@@ -112,7 +131,7 @@ impl Crossing {
         system.retract(span, &mut self.node.state.q, &self.shift);
         let ahead = self.sigma(system, engine)?;
         let way = aside * sigma / (sigma - ahead);
-        self.here = [t, sigma];
+        self.known = [None, None, Some([t, sigma])];
         self.place = (way.abs() < REACH * h).then_some(t + way);
         Ok(self.near())
     }
@@ -129,10 +148,24 @@ impl Crossing {
         self.weakest.follow(engine, ITERATIONS)
     }
 
+    /// Time at which σ becomes zero as the last three values tell at `t` (s), of which the last is that of this node: t(σ) through them, at
+    /// zero (inverse interpolation).
+    fn expected(&self, t: f64) -> Option<f64> {
+        let [Some([t0, s0]), Some([t1, s1]), Some([t2, s2])] = self.known else { return None };
+        if t2 != t || t < self.beyond || !(UPON..=NEAR).contains(&s2) || s2 >= s1 || s1 >= s0 {
+            return None;
+        }
+        let [d01, d02, d12] = [s0 - s1, s0 - s2, s1 - s2];
+        Some(t0 * s1 * s2 / (d01 * d02) - t1 * s0 * s2 / (d01 * d12) + t2 * s0 * s1 / (d02 * d12))
+    }
+
     /// The step to take at `t` (s) where `h` is the longest that the error allows: across with t_c in the gap, or up to where the
-    /// next one can do so.
+    /// next one can do so. Where t_c is expected and stages are not projected yet, only the end of the step counts.
     pub(super) fn plan(&self, t: f64, h: f64) -> f64 {
-        let Some(place) = self.place else { return h };
+        let Some(place) = self.place else {
+            let part = self.expected(t).map_or(f64::INFINITY, |place| (place - t) / h);
+            return if (part - 1.0).abs() < BESIDE { (part - MIDDLE) * h } else { h };
+        };
         let part = (place - t) / h;
         if part <= 0.0 || part >= 1.0 + MIDDLE || (GAP[0]..=GAP[1]).contains(&part) {
             h
@@ -157,18 +190,32 @@ impl Crossing {
     /// Takes the end of a trial whose terms and factors are at hand.
     pub(super) fn arrive(&mut self, engine: &mut Engine, to: &Node) {
         self.node.copy_from(to);
-        self.there = [to.state.t, self.estimate(engine)];
+        self.trial = Some([to.state.t, self.estimate(engine)]);
+    }
+
+    /// Takes the end of a trial far from singular positions, whose factors are at hand.
+    pub(super) fn follow(&mut self, engine: &mut Engine, to: &Node) {
+        let followed = !engine.is_fixed() && engine.tolerance() <= TIGHT && self.weakest.moves(engine) && self.skipped == 0;
+        self.trial = followed.then(|| [to.state.t, self.weakest.follow(engine, 1)]);
     }
 
     /// The trial counts; `h` (s) is the step that the error allows next.
     pub(super) fn accept(&mut self, h: f64) {
         self.rejected = 0;
-        let Some(place) = self.place else { return };
-        let ([before, sigma], [t, now]) = (self.here, self.there);
-        self.here = self.there;
+        let Some([t, now]) = self.trial.take() else {
+            self.skipped = self.skipped.saturating_sub(1);
+            return;
+        };
+        let before = self.known[2];
+        self.known = [self.known[1], before, Some([t, now])];
+        let Some(place) = self.place else {
+            // σ changes by less than NEAR in a step
+            self.skipped = (now / NEAR) as usize / 2;
+            return;
+        };
         self.place = if t < place {
-            let way = (t - before) * now / (sigma - now);
-            (way > 0.0 && way < 2.0 * REACH * h).then_some(t + way)
+            let straight = || before.map(|[start, sigma]| t + (t - start) * now / (sigma - now));
+            self.expected(t).or_else(straight).filter(|place| *place > t && *place < t + 2.0 * REACH * h)
         } else {
             (t - place < REACH * h).then_some(place)
         };
