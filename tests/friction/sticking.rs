@@ -244,6 +244,33 @@ studies:
     }
 }
 
+/// A step far longer than the time in which a force this stiff changes makes stages whose errors overflow.
+#[test]
+fn steps_whose_errors_overflow_are_rejected() {
+    for tolerance in ["1e-6", "1e-7", "1e-8"] {
+        let text = format!(
+            "grashof: 1
+name: mass on a spring with friction by a load
+space: planar
+gravity: none
+bodies: {{ mass: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, mass.origin], axis: [1, 0] }} }}
+springs: {{ spring: {{ joint: S, stiffness: 430 N/m, rest: -0.25 m }} }}
+measures: {{ R: 1 N s/m*abs(S.velocity) + 3 N + 5 N*exp(-2 s/m*abs(S.velocity)) }}
+loads: {{ rub: {{ joint: S, force: \"-R*clamp(S.velocity/(1e-5 m/s), -1, 1)\" }} }}
+start: {{ S.position: 0, S.velocity: -5 m/s }}
+studies:
+  run: {{ dynamics: {{ until: 5 s, every: 0.05 s, tolerance: {tolerance} }}, columns: [time, S.position, S.velocity] }}
+"
+        );
+        let outcome = done(&text, "run");
+        assert!(super::march(&outcome).counts.steps < 3000, "{tolerance}");
+        let fastest = outcome.rows.iter().fold(0.0, |most: f64, row| most.max(row[2].abs()));
+        // by all the energy that there is at the start
+        assert!(fastest < (5.0_f64.powi(2) + 430.0 * 0.25_f64.powi(2)).sqrt(), "{tolerance}: {fastest:e} m/s");
+    }
+}
+
 #[test]
 fn statics_stays_where_friction_holds_and_names_the_region() {
     let text = |angle: f64, mu: f64| {

@@ -99,3 +99,13 @@ fn the_continuous_solution_is_of_order_7() {
         }
     }
 }
+
+#[test]
+fn errors_that_overflow_are_not_taken_for_none() {
+    assert_eq!(combined(1e-3, 0.0, 0.0), 0.0);
+    assert!((combined(2.0, 4.0, 900.0) - 2.0 * 4.0 / 13.0_f64.sqrt()).abs() < 1e-15);
+    for squares in [[1e300, f64::INFINITY], [f64::INFINITY, 1.0], [f64::INFINITY; 2]] {
+        assert_eq!(combined(1e-300, squares[0], squares[1]), f64::INFINITY);
+    }
+    assert!(combined(1.0, f64::NAN, 1.0).is_nan() && combined(1.0, 1.0, f64::NAN).is_nan());
+}
