@@ -325,11 +325,5 @@ fn powers(y0: f64, [r1, r2, r3, r4, r5, r6, r7]: [f64; 7]) -> [f64; 8] {
 /// The error from the squares of those of orders 5 and 3; one whose square overflows is infinite, not none.
 fn combined(h: f64, five: f64, three: f64) -> f64 {
     let root = (five + 0.01 * three).sqrt();
-    if root.is_infinite() {
-        root
-    } else if root > 0.0 {
-        h * five / root
-    } else {
-        root
-    }
+    if root > 0.0 && root.is_finite() { h * five / root } else { root }
 }
