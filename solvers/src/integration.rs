@@ -382,8 +382,10 @@ impl Integration {
     /// Looks for roots within the last step, and ends it at the first or where it ends.
     fn finish(&mut self, system: &mut dyn System, ends: bool) -> Result<Progress, Why> {
         match self.crossing(system)? {
-            Some((theta, root)) if self.is_early(system, theta, root) => self.repeat(system, theta),
-            Some((theta, root)) => self.event(system, theta, root, ends),
+            Some((theta, root)) => match self.to_make_again(system, theta, root)? {
+                Some(part) => self.repeat(system, part),
+                None => self.event(system, theta, root, ends),
+            },
             None => {
                 self.repeated = None;
                 if !self.settings.locate {

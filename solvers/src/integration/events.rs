@@ -217,7 +217,7 @@ impl Integration {
     }
 
     /// Roots at the place θ of the last step, into `probe`.
-    fn look(&mut self, system: &mut dyn System, theta: f64) -> Result<(), Why> {
+    pub(super) fn look(&mut self, system: &mut dyn System, theta: f64) -> Result<(), Why> {
         let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
         self.dense.evaluate(t + theta * h, &mut self.trial.state);
         if system.pattern().roots_by_reactions {
