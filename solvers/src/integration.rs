@@ -382,7 +382,7 @@ impl Integration {
     /// Looks for roots within the last step, and ends it at the first or where it ends.
     fn finish(&mut self, system: &mut dyn System, ends: bool) -> Result<Progress, Why> {
         match self.crossing(system)? {
-            Some((theta, root)) => match self.to_make_again(system, theta, root)? {
+            Some((theta, root)) => match self.part_to_repeat(system, theta, root)? {
                 Some(part) => self.repeat(system, part),
                 None => self.event(system, theta, root, ends),
             },

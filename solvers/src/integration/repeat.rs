@@ -35,7 +35,7 @@ const LONGEST: f64 = 0.5;
 impl Integration {
     /// The part of the last step to which it is to be made again because of a root at its place θ: to just behind one that lies early, and
     /// for one that is positive again at the end, to where it is farthest beyond zero.
-    pub(super) fn to_make_again(&mut self, system: &mut dyn System, theta: f64, root: usize) -> Result<Option<f64>, Why> {
+    pub(super) fn part_to_repeat(&mut self, system: &mut dyn System, theta: f64, root: usize) -> Result<Option<f64>, Why> {
         let (t, h) = (self.last.state.t, self.node.state.t - self.last.state.t);
         let chosen = !self.engine.is_fixed() && self.bridging.is_none() && !self.scheme.chooses_steps();
         // the rest of a step behind something recorded has been a whole step before
