@@ -70,7 +70,7 @@ pub struct Pattern {
     pub striking: Vec<(usize, f64)>,
     /// Roots of rates that do not become negative, as of a one-way clutch: those that a blow would make so take part in it.
     pub closing: Vec<usize>,
-    /// Roots behind which forces follow other laws: a step that reaches far beyond one is made again.
+    /// Roots behind which forces follow other laws: a step that reaches far beyond one, or ends before it again, is made again.
     pub forceful: Vec<usize>,
     /// Roots that depend on time alone, in any modes: [`System::ahead`](crate::System::ahead) finds them.
     pub timed: Vec<usize>,
