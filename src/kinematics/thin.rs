@@ -26,7 +26,7 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
         return None;
     }
     let turns: Vec<bool> = units(mechanism).into_iter().map(|unit| unit == 0).collect();
-    let thin: Vec<Thin<'_, G>> = mechanism.nodes.iter().filter_map(|node| Thin::of(mechanism, node, &turns)).collect();
+    let thin = thin_bodies(mechanism, &turns);
     if thin.is_empty() {
         return None;
     }
@@ -37,9 +37,7 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
     let mass = &dynamics.work.mass;
     // about an axis of the coordinates there is nothing at all
     let mut size: Vec<f64> = (0..mechanism.nv).map(|i| mass.at(i, i)).collect();
-    for (body, k) in thin.iter().flat_map(|body| body.node.columns.clone().map(move |k| (body, k))).filter(|(_, k)| turns[*k]) {
-        size[k] = size[k].max(body.across);
-    }
+    raise(&thin, &turns, &mut size);
     let all: Vec<(usize, usize, f64)> =
         mass.lines().enumerate().flat_map(|(i, line)| line.entries().map(move |(j, m)| (i, j, m)).collect::<Vec<_>>()).collect();
     // motions without inertia, where the turns of some bodies are given some
@@ -62,6 +60,28 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
         if free(&thin[..middle])? < before { high = middle } else { low = middle }
     }
     Some(thin[low].node.body)
+}
+
+/// Inertias (nv), of which those of the turns of thin bodies are at least what these bodies have across.
+pub(crate) fn with_those_across<G: Space<S = f64>>(mechanism: &Mechanism<G>, inertias: &[f64]) -> Vec<f64> {
+    let mut size = inertias.to_vec();
+    if G::SPIN == 3 {
+        let turns: Vec<bool> = units(mechanism).into_iter().map(|unit| unit == 0).collect();
+        raise(&thin_bodies(mechanism, &turns), &turns, &mut size);
+    }
+    size
+}
+
+/// The bodies that turn, by which velocities do (nv), and have no inertia about one of their axes.
+fn thin_bodies<'m, G: Space<S = f64>>(mechanism: &'m Mechanism<G>, turns: &[bool]) -> Vec<Thin<'m, G>> {
+    mechanism.nodes.iter().filter_map(|node| Thin::of(mechanism, node, turns)).collect()
+}
+
+/// Raises the inertias (nv) of the turns of thin bodies to what these have across.
+fn raise<G: Space>(thin: &[Thin<'_, G>], turns: &[bool], size: &mut [f64]) {
+    for (body, k) in thin.iter().flat_map(|body| body.node.columns.clone().map(move |k| (body, k))).filter(|(_, k)| turns[*k]) {
+        size[k] = size[k].max(body.across);
+    }
 }
 
 impl<'m, G: Space<S = f64>> Thin<'m, G> {

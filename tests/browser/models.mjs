@@ -56,8 +56,8 @@ name: two bars thrown
 space: spatial
 gravity: [0, 0, -9.81 m/s^2]
 bodies:
-  a: { bar: { length: 20 cm, mass: 1 kg } }
-  b: { bar: { length: 20 cm, mass: 1 kg } }
+  a: { bar: { length: 20 cm, mass: 1 kg, width: 1 cm, height: 1 cm } }
+  b: { bar: { length: 20 cm, mass: 1 kg, width: 1 cm, height: 1 cm } }
 joints: { J: { revolute: [a.end, b.start], axis: [0, 0, 1] } }
 start: { a.x: 0, a.y: 0, a.z: 1 m, a.vx: 8 m/s, a.vy: 3 m/s, a.vz: 6 m/s, J.angle: 60 deg, J.omega: 300 deg/s }
 studies: { fly: { dynamics: { until: 1.5 s, every: 20 ms }, columns: [time, a.com.x] } }

@@ -13,6 +13,7 @@ use super::runaway;
 use super::setup::Plan;
 use super::system::Mechanical;
 use super::trajectory::Trajectory;
+use super::vanishing;
 use super::watch::swept;
 use super::way::Way;
 use crate::expression::Id;
@@ -24,7 +25,7 @@ use crate::results::{Certificate, Failure, Finding, Happened, Undefined};
 use crate::studies::common::case::Case;
 use crate::studies::common::energies;
 use crate::studies::common::stops::shared_by_contacts;
-use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System};
+use grashof_solvers::{Control, Dense, Dims, Engine, Halt, Integration, Node, Progress, State, System, Why};
 
 /// Parts of a step in minimal coordinates: Hermite's polynomials of fifth order over them are as good as those of the schemes.
 const PARTS: usize = 10;
@@ -240,6 +241,11 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
                 break After::Stopped(slow.explain(self.model, phase, self.plan, &node));
             }
+            if self.pace.crawls()
+                && let Some(why) = vanishing::explain(self.model, phase, &node.state)
+            {
+                break After::Stopped(why);
+            }
             if let Some(rows) = &mut self.rows {
                 rows.follow(self.trajectory);
             }
@@ -261,6 +267,11 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
     fn explain(&self, phase: &Phases<G>, chart: &mut Charted<'m, G>, run: &mut Integration, (state, halt): (&State, &Halt)) -> String {
         let faster = runaway::faster(self.model, phase, state).filter(|_| self.undefined.is_none());
         if let Some(why) = faster.and_then(|faster| runaway::explain(&faster, halt)) {
+            return why;
+        }
+        if matches!(halt.why, Why::Error(_) | Why::StepSize | Why::Newton | Why::Singular)
+            && let Some(why) = vanishing::explain(self.model, phase, state)
+        {
             return why;
         }
         let locked = if chart.is_whole() { explain::locked(&phase.mechanism, halt, &run.dependence(chart.system())) } else { None };

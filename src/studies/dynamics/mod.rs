@@ -20,6 +20,7 @@ pub(crate) mod stepping;
 pub(crate) mod system;
 pub(crate) mod trajectory;
 mod unrecorded;
+mod vanishing;
 mod watch;
 mod way;
 
