@@ -135,7 +135,8 @@ fn the_continuous_solution_costs_little_and_is_as_good_as_the_nodes() {
     for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
         let ([nodes, inside], counts) = errors_inside(tolerance, true);
         for (inside, nodes) in inside.iter().zip(nodes) {
-            assert!(*inside < 1.6 * nodes, "{tolerance:e}: {inside:e} {nodes:e}");
+            // where the nodes are far better than what is asked, that is enough
+            assert!(*inside < 1.6 * nodes.max(0.3 * tolerance), "{tolerance:e}: {inside:e} {nodes:e}");
         }
         // steps without two of about their length before them, as the first, take three more stages; of those at 1e-4, five to a
         // swing, so do others that are too long for the polynomial

@@ -44,12 +44,16 @@ pub(crate) fn assembled<G: Space<S = f64>>(text: &str, coordinates: Coordinates)
 
 /// A study of a text, run to its end.
 pub(crate) fn study(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
-    let model = model(text, Some(name));
-    let study = model.study.clone().expect("the study");
-    let outcome =
-        run_in(Case::new(&model, &study, &parameters(&model)), coordinates, &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason()));
+    let outcome = as_far_as_it_goes(text, name, coordinates);
     assert_eq!(outcome.stopped, None, "{name} stopped");
     outcome
+}
+
+/// A study of a text that may stop on its way.
+pub(crate) fn as_far_as_it_goes(text: &str, name: &str, coordinates: Coordinates) -> Outcome {
+    let model = model(text, Some(name));
+    let study = model.study.clone().expect("the study");
+    run_in(Case::new(&model, &study, &parameters(&model)), coordinates, &|| false).unwrap_or_else(|f| panic!("{name}: {}", f.reason()))
 }
 
 /// Names of a study's columns.

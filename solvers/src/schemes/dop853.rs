@@ -31,13 +31,7 @@ mod work;
 /// Stage that begins the next step.
 const LAST: usize = 12;
 
-/// A step changes by factors between these; the first is for safety. Against the 0.9 of `dop853.f`, 0.8 makes half to a third of
-/// the drift of energy at the same tolerance, for 5 per cent fewer to 7 per cent more evaluations (measured: slider-crank,
-/// pendulum, 1000 s at 1e-11). Rejected: 0.6, though one step in twenty is rejected instead of one in six, and the same error of 1e-4 to
-/// 1e-8 takes 3 per cent fewer evaluations on the crank-rocker, 8 to 14 on Andrews' mechanism, 29 to 40 on forty four-bars:
-/// friction by a load with a stick speed of 1e-6 m/s crawls, and stops with 1e-8 m/s, and the continuous solution is no longer as good as
-/// the ends of steps (measured, the friction before errors that overflow were rejected; h|λ| at the border of stability is the same).
-const SAFETY: f64 = 0.8;
+/// A step changes by factors between these; the first is for safety, [`safety`].
 const SHRINK: f64 = 0.333;
 const GROW: f64 = 6.0;
 
@@ -258,7 +252,7 @@ impl Scheme for Dop853 {
         tried.map_err(|why| self.fails(from, why))?;
         if !engine.is_fixed() {
             let error = self.error(engine, from);
-            self.factor = (SAFETY * error.powf(-0.125)).clamp(SHRINK, GROW);
+            self.factor = (safety(engine.tolerance()) * error.powf(-0.125)).clamp(SHRINK, GROW);
             if error.is_nan() || error > 1.0 {
                 return Err(self.errs(system, engine, from, error));
             }
@@ -320,6 +314,19 @@ impl Scheme for Dop853 {
 /// Powers of θ of the nested form.
 fn powers(y0: f64, [r1, r2, r3, r4, r5, r6, r7]: [f64; 7]) -> [f64; 8] {
     [y0, r1 + r2, r3 + r4 - r2, r5 + r6 - r3 - 2.0 * r4, r4 - 2.0 * r5 - 3.0 * r6 + r7, r5 + 3.0 * r6 - 3.0 * r7, 3.0 * r7 - r6, -r7]
+}
+
+/// Part of the step that is thought to meet the tolerance which is taken.
+///
+/// With 0.6 one step in twenty is rejected instead of one in six with 0.8, and errors of the pendulum are 0.1 to 1 times the tolerance
+/// instead of 2 to 10 times; the same error of 1e-4 to 1e-8 takes up to 4 per cent fewer evaluations on the crank-rocker, 6 to 15 on
+/// Andrews' mechanism and Bricard's, 4 to 40 on one to forty four-bars, and nowhere over 2 per cent more [measured, with the 0.8 for tight
+/// tolerances]. Those ask for 0.8: of 582 runs of rows of four-bars at 1e-9 to 1e-12 10 lose more energy with 0.6, up to ten times, than a
+/// crank of the same inertia does at that tolerance, since singular positions are looked for where a step is rejected. The 0.9 of
+/// `dop853.f` makes two to three times the drift of energy of 0.8 [measured, slider-crank, and pendulum for 1000 s at 1e-11].
+fn safety(tolerance: f64) -> f64 {
+    let digits = -tolerance.log10();
+    (0.6 + 0.1 * (digits - 9.0)).clamp(0.6, 0.8)
 }
 
 /// The error from the squares of those of orders 5 and 3; one whose square overflows is infinite, not none.

@@ -11,9 +11,9 @@ const LENGTHS: (f64, f64) = (0.5, 3.0);
 const SHOWN: f64 = 0.1;
 const ROUNDED: f64 = 4.0;
 
-/// Error that the polynomial may have by its estimate, in units of the tolerance [measured, a force that turns round within 10 to 100 ms:
-/// velocities inside of steps are off by at most 12 tolerances, beside 8 by three more stages and 56 without an estimate; where 1e-6
-/// lets a step pass over 10 ms it is 303 with either and 515].
+/// Error that the polynomial may have by its estimate, in units of the tolerance [measured with a safety of 0.8, a force that turns round
+/// within 10 to 100 ms: velocities inside of steps are off by at most 12 tolerances, beside 8 by three more stages and 56 without an
+/// estimate; where 1e-6 lets a step pass over 10 ms it is 303 with either and 515].
 pub(super) const ERROR: f64 = 0.3;
 
 /// Begins of the last three steps: y = (q, v, z) and ẏ of each.
