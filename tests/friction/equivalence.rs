@@ -171,3 +171,41 @@ fn tangents_of_friction_by_reactions_are_its_derivatives() {
     let bristle = ", static: 0.3, stribeck_speed: 1 m/s, bristle: { stiffness: 50, damping: 0.1 }";
     tangents::<Planar<f64>>(&slider_crank("planar", bristle, "", study).replace(", stick_speed: 1 cm/s", ""));
 }
+
+/// A block on a belt with friction by a load sticks in a zone of speeds about as narrow as the tolerance, in steps that are a hundred
+/// thousand times as long as the time of that force: it slips, in a step of `radau5`, where it slips in the short ones of `bdf`.
+#[test]
+fn long_steps_of_radau5_in_narrow_zones_end_where_short_ones_of_bdf_do() {
+    let block = |[stiffness, stick]: [f64; 2], integrator: &str, tolerance: f64| {
+        format!(
+            "grashof: 1
+name: block on a belt
+space: planar
+gravity: none
+bodies: {{ block: {{ mass: 2 kg }} }}
+joints: {{ B: {{ slider: [ground, block.origin], axis: [1, 0] }} }}
+measures: {{ w: B.velocity - 0.1 m/s }}
+springs: {{ k: {{ joint: B, stiffness: {stiffness} N/m }} }}
+loads: {{ rub: {{ joint: B, force: \"-(4 N + 4 N*exp(-abs(w)/(0.05 m/s)))*clamp(w/({stick:e} m/s), -1, 1)\" }} }}
+start: {{ B.position: 0, B.velocity: 0.1 m/s }}
+studies:
+  run: {{ dynamics: {{ until: 3 s, integrator: {integrator}, tolerance: {tolerance:e} }}, columns: [time, B.position] }}
+"
+        )
+    };
+    for (model, tolerance) in [
+        ([216.6, 6.7e-7], 1.8e-7),
+        ([415.1, 1.25e-6], 2.1e-7),
+        ([391.8, 2.7e-6], 1.5e-8),
+        ([126.1, 8e-7], 2.6e-7),
+        ([484.6, 4.1e-6], 5.1e-7),
+        ([377.8, 9.8e-6], 1.1e-6),
+        ([320.0, 5e-5], 1e-9),
+    ] {
+        let outcome = done(&block(model, "radau5", tolerance), "run");
+        let right = last(&done(&block(model, "bdf", 0.01 * tolerance), "run"))[1];
+        close(&format!("{model:?} at {tolerance:e}"), last(&outcome)[1], right, 3.0 * tolerance);
+        let unbalanced = outcome.findings.iter().any(|finding| finding.code == "energy");
+        assert!(!unbalanced, "{model:?} at {tolerance:e}: {:?}", outcome.findings);
+    }
+}
