@@ -96,7 +96,9 @@ def cost(arguments):
         found = [line["seconds"], step[0] if step else None, evaluation]
     elif code == "Grashof":
         explicit = program(code, problem, arguments.work, ["cost:dop853:1e-6"] * 3)
-        implicit = program(code, problem, arguments.work, ["cost:bdf:1e-4"] * 3)
+        # the first steps, of order one, are those of a start
+        under_way = problem if kind == "chain" else problems.four_bars(n, end=0.3)
+        implicit = program(code, under_way, arguments.work, ["cost:bdf:1e-4"] * 3)
         found = [min(line["seconds"] for line in explicit), min(line["measured"][1] for line in implicit),
                  min(line["measured"][0] for line in explicit)]
     else:
@@ -240,7 +242,7 @@ def document(results, costs, arguments):
     for problem, found in results:
         lines += accuracy_table(problem, found)
     lines += ["## Cost over size", "",
-              "The chain has no loops, the four-bars have one each. A step is that of the code's usual scheme: of Grashof `bdf` with about three evaluations, "
+              "The chain has no loops, the four-bars have one each. A step is that of the code's usual scheme: of Grashof `bdf` with about three evaluations, the mean over 0.3 s, "
               "of MuJoCo Euler with one, of Exudyn generalized alpha, of Drake a discrete one, of Simbody Merson with 5 evaluations and a projection.", "",
               *cost_tables(costs)]
     (DOCUMENT / "comparison.md").write_text("\n".join(lines).rstrip("\n") + "\n")
