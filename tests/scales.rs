@@ -257,7 +257,8 @@ bodies:
 }
 
 /// Two thin bars that come into one line have no inertia about it in that instant, and a massless crank has none at its dead point: a run
-/// that cannot pass says which motion it is, soon and by every scheme. Bars with a thickness pass.
+/// that cannot pass says which motion it is. Bars with a thickness pass, bars that turn about their line bounce, and a massless crank that
+/// comes to rest beside its dead point has been there with short steps and is left alone.
 #[test]
 fn inertia_that_vanishes_on_the_way_is_told() {
     let bars = |bar: &str, keys: &str| {
@@ -277,18 +278,19 @@ studies: {{ fly: {{ dynamics: {{ until: 1.5 s, every: 20 ms{keys} }}, columns: [
     };
     // some pass by chance, in a step whose stages all lie beside that instant
     let mut told = 0;
-    for integrator in ["dop853", "bdf", "newmark"] {
-        for (tolerance, coordinates) in [(1e-8, "joint"), (1e-9, "joint"), (1e-9, "cartesian")] {
-            let keys = format!(", integrator: {integrator}, tolerance: {tolerance:e}, coordinates: {coordinates}");
-            let run = run_text(&bars("", &keys), &["--no-plots"]);
-            let stopped = run.stderr.contains("at t = 0.77") && run.stderr.contains("has lost its inertia");
-            assert!(run.code == 0 || run.code == 3 && stopped, "{keys}: {} {}", run.code, run.stderr);
-            told += usize::from(run.code == 3);
-            let thick = run_text(&bars(", width: 1 cm, height: 1 cm", &keys), &["--no-plots"]);
-            assert_eq!(thick.code, 0, "{keys}: {}", thick.stderr);
-        }
+    for (integrator, tolerance) in [("dop853", 1e-8), ("dop853", 1e-9), ("bdf", 1e-9), ("newmark", 1e-8)] {
+        let keys = format!(", integrator: {integrator}, tolerance: {tolerance:e}");
+        let run = run_text(&bars("", &keys), &["--no-plots"]);
+        let stopped = run.stderr.contains("at t = 0.77") && run.stderr.contains("it has lost its inertia");
+        assert!(run.code == 0 || run.code == 3 && stopped, "{keys}: {} {}", run.code, run.stderr);
+        told += usize::from(run.code == 3);
+        let thick = run_text(&bars(", width: 1 cm, height: 1 cm", &keys), &["--no-plots"]);
+        assert_eq!(thick.code, 0, "{keys}: {}", thick.stderr);
     }
-    assert!(told >= 4, "{told} of 9");
+    assert!(told >= 1);
+    let turned = bars("", ", tolerance: 1e-6").replace("start: {", "start: { a.wx: 1e-5 rad/s,");
+    let bounces = run_text(&turned, &["--no-plots"]);
+    assert_eq!(bounces.code, 0, "{}", bounces.stderr);
     let crank = "grashof: 1
 name: massless crank
 space: planar
@@ -307,7 +309,16 @@ studies: { turn: { dynamics: { until: 3 s, every: 20 ms }, columns: [time, S.pos
 ";
     for (coordinates, name) in [("joint", "A.angle"), ("cartesian", "crank.angle"), ("minimal", "A.angle")] {
         let run = run_text(&crank.replace("every: 20 ms", &format!("every: 20 ms, coordinates: {coordinates}")), &["--no-plots"]);
-        let told = run.stderr.contains(&format!("a motion of `{name}`")) && run.stderr.contains("has lost its inertia");
+        let told = run.stderr.contains(&format!("a motion of `{name}`")) && run.stderr.contains("it has lost its inertia");
         assert!(run.code == 3 && told, "{coordinates}: {} {}", run.code, run.stderr);
     }
+    let rests = crank
+        .replace("length: 10 cm, mass: 0", "length: 2 mm, mass: 0")
+        .replace("length: 30 cm, mass: 0", "length: 6 mm, mass: 0")
+        .replace("mass: 1 kg", "mass: 1 g")
+        .replace("crank.start]", "crank.start], limits: { to: 170 deg, stiffness: 100 N m/rad, damping: 1e-5 N m s/rad }")
+        .replace("A.omega: 5 rad/s }", "A.omega: 0 }\nloads: { p: { joint: S, force: -0.001 N } }")
+        .replace("until: 3 s, every: 20 ms", "until: 0.8 s, every: 20 ms, integrator: radau5");
+    let run = run_text(&rests, &["--no-plots"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
 }

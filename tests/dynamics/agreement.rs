@@ -358,3 +358,26 @@ studies: {{ s: {{ dynamics: {{ until: 1 s, every: 1 ms, tolerance: {tolerance}, 
         }
     }
 }
+
+/// Positions inside of the steps of `radau5` are as good as those at their ends: those of a mass on a spring are cosines.
+#[test]
+fn positions_between_steps_of_radau5_have_the_digits_of_its_steps() {
+    for (tolerance, within) in [("1e-6", 2e-7), ("1e-8", 2e-9), ("1e-10", 2e-11)] {
+        let text = format!(
+            "grashof: 1
+name: mass on a spring
+space: planar
+gravity: none
+bodies: {{ m: {{ mass: 1 kg }} }}
+joints: {{ S: {{ slider: [ground, m.origin], axis: [1, 0] }} }}
+springs: {{ k: {{ joint: S, stiffness: 1 N/m }} }}
+start: {{ S.position: 1 m, S.velocity: 0 }}
+studies: {{ run: {{ dynamics: {{ until: 20 s, every: 5 ms, integrator: radau5, tolerance: {tolerance} }}, columns: [time, S.position] }} }}
+"
+        );
+        let run = run_text(&text, &["--no-plots"]);
+        let table = run.succeeded().table("run");
+        let worst = table.rows.iter().map(|row| (row[1] - row[0].cos()).abs()).fold(0.0, f64::max);
+        assert!(worst < within, "{tolerance}: {worst:e}");
+    }
+}

@@ -241,8 +241,8 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
             if let Some(slow) = self.pace.step([last.state.t, node.state.t], self.trajectory.size(), self.plan) {
                 break After::Stopped(slow.explain(self.model, phase, self.plan, &node));
             }
-            if self.pace.crawls()
-                && let Some(why) = vanishing::explain(self.model, phase, &node.state)
+            if let Some(short) = self.pace.crawls()
+                && let Some(why) = vanishing::explain(self.model, phase, &node.state, vanishing::part(short))
             {
                 break After::Stopped(why);
             }
@@ -270,7 +270,7 @@ impl<'m, G: Space<S = f64>> Flow<'_, '_, 'm, G> {
             return why;
         }
         if matches!(halt.why, Why::Error(_) | Why::StepSize | Why::Newton | Why::Singular)
-            && let Some(why) = vanishing::explain(self.model, phase, state)
+            && let Some(why) = vanishing::explain(self.model, phase, state, vanishing::STUCK)
         {
             return why;
         }

@@ -24,9 +24,9 @@ const MOST_BYTES: usize = 3 << 30;
 const MOST: f64 = 1e7;
 /// Steps between two looks; the first look is at twice as many.
 const LOOK: usize = 100_000;
-/// Part of the longest step below which a step is short, and how many of them in a row make a run crawl.
+/// Part of the longest step below which a step is short, and how many of them in a row, a power of two, make a run crawl.
 const SHORT: f64 = 1e-3;
-const CRAWLS: usize = 256;
+const CRAWLS: usize = 1 << 14;
 /// Velocities of a mechanism of which the fastest motion is looked for, at most: the work grows with the cube.
 const MOST_VELOCITIES: usize = 100;
 /// Coordinates that take part in a motion, of the largest.
@@ -58,8 +58,11 @@ impl Pace {
     pub(super) fn step(&mut self, [from, to]: [f64; 2], bytes: usize, plan: &Plan) -> Option<Slow> {
         let begun = *self.begun.get_or_insert(from);
         self.count += 1;
-        self.longest = self.longest.max(to - from);
-        self.short = if to - from < SHORT * self.longest { self.short + 1 } else { 0 };
+        // an event has no length
+        if to > from {
+            self.longest = self.longest.max(to - from);
+            self.short = if to - from < SHORT * self.longest { self.short + 1 } else { 0 };
+        }
         if bytes > MOST_BYTES {
             return Some(Slow::Memory(self.count));
         }
@@ -73,9 +76,9 @@ impl Pace {
         (self.count >= 2 * LOOK && needed > MOST).then_some(Slow::Steps(self.count, needed))
     }
 
-    /// Whether many short steps have followed each other: true at 256 of them, at 512, at 1024 and so on.
-    pub(super) fn crawls(&self) -> bool {
-        self.short >= CRAWLS && self.short.is_power_of_two()
+    /// How many short steps have followed each other where they make the run crawl: told once, and again whenever they have doubled.
+    pub(super) fn crawls(&self) -> Option<usize> {
+        (self.short >= CRAWLS && self.short.is_power_of_two()).then_some(self.short)
     }
 }
 
