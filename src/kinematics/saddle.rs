@@ -45,6 +45,12 @@ impl Saddle {
         Some(Self { below, nv, scale: scale.to_vec(), matrix, factors })
     }
 
+    /// As [`Saddle::new`] for A = M + diag(added), M the mass matrix and `added` a number for each velocity (nv).
+    pub(crate) fn of_mass(mass: &Block, added: impl Iterator<Item = f64>, rows: &Block, scale: &[f64]) -> Option<Self> {
+        let entries = mass.lines().enumerate().flat_map(|(i, line)| line.entries().map(move |(j, m)| (i, j, m)).collect::<Vec<_>>());
+        Self::new(entries.chain(added.enumerate().map(|(i, m)| (i, i, m))), rows, scale)
+    }
+
     /// The motion (nv) of a force (nv).
     pub(crate) fn solve(&self, force: &[f64]) -> Vec<f64> {
         let mut x = self.solved(force);

@@ -38,16 +38,13 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
     // about an axis of the coordinates there is nothing at all
     let mut size: Vec<f64> = (0..mechanism.nv).map(|i| mass.at(i, i)).collect();
     raise(&thin, &turns, &mut size);
-    let all: Vec<(usize, usize, f64)> =
-        mass.lines().enumerate().flat_map(|(i, line)| line.entries().map(move |(j, m)| (i, j, m)).collect::<Vec<_>>()).collect();
     // motions without inertia, where the turns of some bodies are given some
     let free = |given: &[Thin<'_, G>]| {
         let mut added: Vec<f64> = size.iter().map(|size| -ROUND_OFF * size).collect();
         for k in given.iter().flat_map(|body| body.node.columns.clone()).filter(|k| turns[*k]) {
             added[k] = size[k];
         }
-        let entries = all.iter().copied().chain(added.into_iter().enumerate().map(|(k, m)| (k, k, m)));
-        Some(Saddle::new(entries, &dynamics.work.g, &scale)?.below)
+        Some(Saddle::of_mass(mass, added.into_iter(), &dynamics.work.g, &scale)?.below)
     };
     let before = free(&[])?;
     if before == 0 || free(&thin)? >= before {

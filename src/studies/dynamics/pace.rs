@@ -175,6 +175,30 @@ mod tests {
         None
     }
 
+    /// Numbers of steps of these lengths behind which a run of 2^16 of them crawls.
+    fn crawls(length: impl Fn(usize) -> f64) -> Vec<usize> {
+        let (coordinates, family) = (Coordinates::Joint, Family::Either);
+        let settings = Settings { control: Control::Tolerance(1e-8), ..Settings::default() };
+        let plan = Plan { until: 1.0, every: None, settings, coordinates, minimal: false, family, integrator: None };
+        let mut pace = Pace::default();
+        let at = |k: usize| {
+            pace.step([0.0, length(k)], 0, &plan);
+            pace.crawls().map(|_| k)
+        };
+        (0..1 << 16).filter_map(at).collect()
+    }
+
+    #[test]
+    fn many_short_steps_in_a_row_are_a_crawl() {
+        let first = |k: usize| if k == 0 { 1e-2 } else { 1e-6 };
+        assert_eq!(crawls(first), [1 << 14, 1 << 15]);
+        // one step is longer again, or all are of one length, as those of a stiff force
+        assert_eq!(crawls(|k| if k.is_multiple_of(10_000) { 1e-2 } else { 1e-6 }), [0; 0]);
+        assert_eq!(crawls(|_| 1e-6), [0; 0]);
+        // an event between two steps is none
+        assert_eq!(crawls(|k| if k == 5 { 0.0 } else { first(k) }), [(1 << 14) + 1, (1 << 15) + 1]);
+    }
+
     #[test]
     fn what_is_too_slow_all_the_time_is_stopped() {
         let tolerance = Control::Tolerance(1e-8);

@@ -45,10 +45,7 @@ pub(super) fn explain<G: Space<S = f64>>(model: &Model, phase: &Phases<G>, state
     // signs of the pivots of M − εD, D these inertias, count the motions on the constraints that have less than ε of them
     let mut less = |t: f64, [q, v]: [&[f64]; 2], modes: &[i32], epsilon: f64| {
         dynamics.terms(t, q, v, modes);
-        let work = &dynamics.work;
-        let mass = work.mass.lines().enumerate().flat_map(|(i, line)| line.entries().map(move |(j, x)| (i, j, x)).collect::<Vec<_>>());
-        let taken = inertias.iter().enumerate().map(|(i, d)| (i, i, -epsilon * d));
-        Saddle::new(mass.chain(taken), &work.g, &scale)
+        Saddle::of_mass(&dynamics.work.mass, inertias.iter().map(|d| -epsilon * d), &dynamics.work.g, &scale)
     };
     let mut decades = (0..=DECADES).map(|decade| 0.1_f64.powi(decade));
     let least = decades.find(|&all| less(0.0, [&start.q, &start.v], &start.modes, all).is_some_and(|found| found.below == 0))?;
