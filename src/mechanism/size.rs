@@ -42,7 +42,7 @@ impl<G: Space<S = f64>> Mechanism<G> {
     }
 
     /// For each velocity a number that it shares with those of the same unit of bodies that joints and rows connect, other than by the
-    /// ground (nv).
+    /// ground (nv): 2 k of turns and 2 k + 1 of slides of the same bodies.
     #[must_use]
     pub fn kinds(&self) -> Vec<usize> {
         let mut sets = self.connected(self.nodes.iter().map(|n| (n.parent, n.body)));
