@@ -80,11 +80,13 @@ fn equilibria(results: &Results) -> String {
     results.findings.iter().map(|f| format!("  {}: {}\n", line(&f.code), f.message)).collect()
 }
 
-/// What a reader should know of a motion, or of the runs of a sweep, in a line each; all of it is in the JSON.
+/// What a reader should know of a motion, or of the runs of a sweep, in a line each, warnings first; all of it is in the JSON.
 fn notes(results: &Results) -> String {
     // why runs are not whole stands in their lines
-    let findings: Vec<&Finding> = results.findings.iter().filter(|f| f.code != "run-stopped").collect();
-    let shown = findings.iter().take(FINDINGS).map(|f| format!("  note: {}\n", f.message)).collect::<String>();
+    let mut findings: Vec<&Finding> = results.findings.iter().filter(|f| f.code != "run-stopped").collect();
+    findings.sort_by_key(|f| !f.is_warning());
+    let word = |f: &Finding| if f.is_warning() { "warning" } else { "note" };
+    let shown = findings.iter().take(FINDINGS).map(|f| format!("  {}: {}\n", word(f), f.message)).collect::<String>();
     match findings.len().saturating_sub(FINDINGS) {
         0 => shown,
         more => shown + &format!("  note: {more} more findings are in the JSON file\n"),
@@ -128,4 +130,23 @@ fn happened(results: &Results) -> String {
     let more = results.events.len().saturating_sub(EVENTS);
     let more = if more > 0 { format!(", and {more} more") } else { String::new() };
     format!("  happened: {}{more}\n", shown.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_come_first() {
+        let finding = |code: &'static str| Finding { code: code.into(), message: code.into(), path: String::new() };
+        let mut findings: Vec<Finding> = (0..FINDINGS).map(|_| finding("undefined-scalar")).collect();
+        findings.extend([finding("run-stopped"), finding("energy")]);
+        let told = notes(&Results { findings, ..Results::default() });
+        let lines: Vec<&str> = told.lines().collect();
+        assert_eq!(lines.len(), FINDINGS + 1);
+        assert_eq!(
+            [lines[0], lines[1], lines[FINDINGS]],
+            ["  warning: energy", "  note: undefined-scalar", "  note: 1 more findings are in the JSON file"]
+        );
+    }
 }

@@ -14,6 +14,14 @@ pub struct Finding {
     pub path: String,
 }
 
+impl Finding {
+    /// Whether it says that the numbers of a motion are wrong by more than they should be.
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        matches!(&*self.code, "energy" | "open-constraints")
+    }
+}
+
 /// One checked expectation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checked {

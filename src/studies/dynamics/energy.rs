@@ -242,15 +242,27 @@ impl Balance {
             velocity: 0.0,
             counts: self.counts,
         };
-        let crossed = self.bridged.iter().take(20).map(|t| Finding {
-            code: "singular-position".into(),
-            message: format!("a singular position was crossed near t = {t:.6} s"),
-            path: "joints".into(),
-        });
+        let doubt = unbalanced(&march, [self.largest, self.unit], place);
         let kinked = self.kinked.map(|(first, count)| passed_kinks(&first, count, place));
-        let findings = crossed.chain(kinked).chain(unbalanced(&march, [self.largest, self.unit], place)).collect();
+        let crossed = passed_singular(&self.bridged, march.counts.bridges);
+        let findings = doubt.into_iter().chain(kinked).chain(crossed).collect();
         (Certificate { switches: self.counts.events, march: Some(march), ..Certificate::default() }, findings)
     }
+}
+
+/// Times that a finding names.
+const NAMED: usize = 3;
+
+/// That `count` singular positions were crossed, near the `times` (s), of which the first ones are known.
+fn passed_singular(times: &[f64], count: usize) -> Option<Finding> {
+    let named: Vec<String> = times.iter().take(NAMED).map(|t| format!("{t:.6} s")).collect();
+    let message = match (count, count.saturating_sub(named.len())) {
+        (0, _) => return None,
+        (1, _) => format!("a singular position was crossed near t = {}", named.join("")),
+        (_, 0) => format!("singular positions were crossed near t = {}", named.join(", ")),
+        (_, others) => format!("singular positions were crossed near t = {} and {others} times more", named.join(", ")),
+    };
+    Some(Finding { code: "singular-position".into(), message, path: "joints".into() })
 }
 
 /// That velocities have jumped at kinks of couplings and drivers.
@@ -353,5 +365,15 @@ mod tests {
         assert!(told(1e-8, 0.2, 1.0) && told(1e-12, 1e-5, 1.0) && !told(1e-8, 1e-5, 1.0) && !told(1e-12, 1e-7, 1.0));
         // by parts of a large mechanism, and at most a hundredth of it
         assert!(!told(1e-8, 5e-3, 100.0) && told(1e-2, 2.0, 100.0));
+    }
+
+    #[test]
+    fn singular_positions_are_one_note() {
+        let told = |times: &[f64], count| passed_singular(times, count).map(|found| found.message);
+        assert_eq!(told(&[], 0), None);
+        assert_eq!(told(&[0.5], 1).unwrap(), "a singular position was crossed near t = 0.500000 s");
+        assert_eq!(told(&[0.5, 1.0], 2).unwrap(), "singular positions were crossed near t = 0.500000 s, 1.000000 s");
+        let many = "singular positions were crossed near t = 0.500000 s, 1.000000 s, 1.500000 s and 7 times more";
+        assert_eq!(told(&[0.5, 1.0, 1.5, 2.0], 10).unwrap(), many);
     }
 }
