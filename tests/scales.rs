@@ -365,3 +365,52 @@ studies:
         }
     }
 }
+
+/// The same in space with unequal masses, and a block of almost no mass on a heavy rod: as in cartesian coordinates, whose light bodies can
+/// all be shifted.
+#[test]
+fn slides_and_turns_of_very_different_inertia_move_as_in_cartesian_coordinates() {
+    let space = "grashof: 1
+name: light rod in space
+space: spatial
+gravity: [0, -9.81 m/s^2, 0]
+ground: { O: [0, 0, 0], P: [0, 48 mm, 24 mm] }
+bodies:
+  crank: { bar: { length: 0.1 m, mass: 0.4 g, width: 5 mm, height: 5 mm } }
+  rod: { bar: { length: 0.33 m, mass: 1e-8 kg, width: 5 mm, height: 5 mm } }
+  block: { box: { size: [24 mm, 24 mm, 24 mm], mass: 1.6 kg } }
+joints:
+  A: { revolute: [ground.O, crank.start], axis: [0, 0, 1] }
+  B: { spherical: [crank.end, rod.start] }
+  C: { universal: [rod.end, block], axes: [[0, 0, 1], [0, 1, 0]] }
+  S: { slider: [ground.P, block], axis: [1, 0, 0] }
+";
+    let plane = "grashof: 1
+name: light block
+space: planar
+gravity: none
+bodies:
+  crank: { bar: { length: 0.18 m, mass: 1e-7 kg } }
+  rod: { bar: { length: 0.28 m, mass: 6 kg } }
+  block: { mass: 2e-12 kg }
+joints:
+  A: { revolute: [ground, crank.start] }
+  B: { revolute: [crank.end, rod.start] }
+  C: { revolute: [rod.end, block] }
+  S: { slider: [ground, block], axis: [1, 0] }
+";
+    for model in [space, plane] {
+        let [joint, cartesian] = ["joint", "cartesian"].map(|coordinates| {
+            let dynamics = format!("until: 2 s, every: 50 ms, tolerance: 1e-8, coordinates: {coordinates}");
+            let text = format!(
+                "{model}start: {{ A.angle: 60 deg, A.omega: 5 rad/s }}
+studies: {{ turn: {{ dynamics: {{ {dynamics} }}, columns: [A.angle, S.position] }} }}
+"
+            );
+            study(&text, "turn", Coordinates::Joint)
+        });
+        let off = joint.rows.iter().zip(&cartesian.rows).flat_map(|(a, b)| a.iter().zip(b)).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(joint.rows.len() == 41 && off < 2e-7, "{off:e}");
+        assert!(joint.certificate.march.as_ref().is_some_and(|march| march.counts.steps < 2000), "{:?}", joint.certificate);
+    }
+}
