@@ -16,7 +16,7 @@ const EVENTS: usize = 6;
 pub fn summary(results: &Results) -> String {
     if results.table.reasons.is_some() {
         let table = if results.statistics.is_empty() { runs::summary(&results.table) } else { runs::distributed(results) };
-        return table + &notes(results);
+        return variants(results) + &table + &notes(results);
     }
     let of_kind = match results.kind.as_str() {
         "statics" => equilibria(results),
@@ -27,7 +27,16 @@ pub fn summary(results: &Results) -> String {
     // the results of modes stand in their table
     let listed = |s: &&Scalar| results.kind != "modes" || s.by != By::Kind;
     let listed: Vec<&Scalar> = results.scalars.iter().filter(listed).collect();
-    solution(results) + &of_kind + &scalars::table(&listed)
+    variants(results) + &solution(results) + &of_kind + &scalars::table(&listed)
+}
+
+/// Which variants of the model it is of; empty for the model itself.
+fn variants(results: &Results) -> String {
+    match &results.variants[..] {
+        [] => String::new(),
+        [one] => format!("  variant: {one}\n"),
+        several => format!("  variants: {}\n", several.join(", ")),
+    }
 }
 
 /// `solved: I_f = 279.25 kg m^2 (12 runs), delta = 0.01`; empty where nothing is solved.
@@ -135,6 +144,13 @@ fn happened(results: &Results) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn variants_are_named() {
+        let told = |names: &[&str]| summary(&Results { variants: names.iter().map(|name| (*name).into()).collect(), ..Results::default() });
+        assert!(!told(&[]).contains("variant"));
+        assert!(told(&["motor"]).starts_with("  variant: motor\n") && told(&["motor", "soft"]).starts_with("  variants: motor, soft\n"));
+    }
 
     #[test]
     fn warnings_come_first() {
