@@ -49,7 +49,7 @@ where
             format!("at t = {t:.6} s Newton's method does not converge with the step {:.1e} s: give a shorter `step`", halt.h)
         }
         Why::Newton => format!(
-            "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks or a force jumps there; look at the motion just before",
+            "at t = {t:.6} s Newton's method does not converge even with a step of {:.1e} s: the mechanism locks, a force jumps, or a light body is swept through a dead point there; look at the motion just before, or try `integrator: dop853`",
             halt.h
         ),
         Why::Lost => {
