@@ -201,7 +201,7 @@ mod tests {
             let g = DMatrix::from_row_slice(m, r, &noise.vector(m * r)) * base;
             let masses: Vec<f64> = (0..nv).map(|_| 10f64.powf(3.0 * noise.next())).collect();
             let rows = g.transpose().as_slice().to_vec();
-            let d = metric(masses, &vec![0; nv]);
+            let d = metric(masses, &vec![(0, None); nv]);
             let scale = row_scale(&Sparsity::dense(m, nv), &rows, &d);
             let found = NullSpace::new(&rows, &d, &scale, RANK_TOLERANCE);
             assert_eq!((found.independent.len(), found.dependent.len(), found.mobility), (r, m - r, nv - r));

@@ -52,7 +52,7 @@ mod tests {
                 rows.push(rows[2].clone());
             }
             let mass: Vec<f64> = (0..nv).map(|i| 10f64.powi(i as i32 % 5 - 2)).collect();
-            let d = metric(mass.iter().copied(), &vec![0; nv]);
+            let d = metric(mass.iter().copied(), &vec![(0, None); nv]);
             let mut g = Block::full(rows.len(), nv);
             g.values_mut().copy_from_slice(&rows.concat());
             let scale = row_scale(g.pattern(), g.values(), &d);

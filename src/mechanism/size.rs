@@ -41,10 +41,10 @@ impl<G: Space<S = f64>> Mechanism<G> {
         units
     }
 
-    /// For each velocity a number that it shares with those of the same unit of bodies that joints and rows connect, other than by the
-    /// ground (nv): 2 k of turns and 2 k + 1 of slides of the same bodies.
+    /// For each velocity (nv) a number that it shares with those of bodies that joints and rows connect, other than by the ground, and for
+    /// slides the `size`, m, which counts as 1 rad.
     #[must_use]
-    pub fn kinds(&self) -> Vec<usize> {
+    pub fn kinds(&self, size: f64) -> Vec<(usize, Option<f64>)> {
         let mut sets = self.connected(self.nodes.iter().map(|n| (n.parent, n.body)));
         for row in &self.rows {
             let mut bodies = self.gauges_of(row).into_iter().flat_map(|i| [self.gauges[i].a, self.gauges[i].b]).filter(|body| *body != 0);
@@ -52,13 +52,13 @@ impl<G: Space<S = f64>> Mechanism<G> {
                 bodies.for_each(|body| sets.join(first, body));
             }
         }
-        let mut kinds = vec![0; self.nv];
+        let mut kinds = vec![(0, None); self.nv];
         for node in &self.nodes {
-            let set = 2 * sets.of(node.body);
+            let group = sets.of(node.body);
             for step in &self.steps[node.steps.clone()] {
                 match *step {
-                    Step::Axis { turns, v, .. } => kinds[v] = set + usize::from(!turns),
-                    Step::Ball { v, .. } => kinds[v..v + G::SPIN].fill(set),
+                    Step::Axis { turns, v, .. } => kinds[v] = (group, (!turns).then_some(size)),
+                    Step::Ball { v, .. } => kinds[v..v + G::SPIN].fill((group, None)),
                 }
             }
         }

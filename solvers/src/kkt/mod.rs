@@ -38,7 +38,7 @@ mod small;
 pub mod sparse;
 
 pub(crate) use scale::root_inverse;
-pub use scale::{REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
+pub use scale::{Kind, REGULARIZATION, ROUND_OFF, metric, natural_row_scale, row_scale};
 
 use crate::sparsity::{DENSE_UP_TO, SPARSE_COST};
 use crate::{Pattern, Sparsity};
@@ -211,8 +211,8 @@ impl Kkt {
     }
 
     /// Takes the scales from the matrices at assembly; see [`metric`] and [`row_scale`]. Allocates.
-    pub fn scale(&mut self, mass: &[f64], g: &[f64], kind: &[usize]) {
-        let metric = metric(self.diagonal.iter().map(|k| mass[*k]), kind);
+    pub fn scale(&mut self, mass: &[f64], g: &[f64], kinds: &[Kind]) {
+        let metric = metric(self.diagonal.iter().map(|k| mass[*k]), kinds);
         let g_scale = row_scale(&self.blocks.0[1], g, &metric);
         self.set_scale(&metric, &g_scale);
     }

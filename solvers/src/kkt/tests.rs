@@ -12,7 +12,7 @@ fn mass(noise: &mut Noise, n: usize) -> Vec<f64> {
 
 /// D of a mass matrix of one unit, row-major.
 fn metric_of(mass: &[f64], nv: usize) -> Vec<f64> {
-    metric(mass.iter().step_by(nv + 1).copied(), &vec![0; nv])
+    metric(mass.iter().step_by(nv + 1).copied(), &vec![(0, None); nv])
 }
 
 /// max |x − y|.
@@ -32,7 +32,7 @@ fn general_solution_fulfils_both_rows() {
         let (f, gamma) = (noise.vector(nv), noise.vector(m));
         let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
         let mut kkt = Kkt::new(nv, m);
-        kkt.scale(&mass, &g, &vec![0; nv]);
+        kkt.scale(&mass, &g, &vec![(0, None); nv]);
         kkt.factor(&mass, &g).unwrap();
         kkt.solve(&f, &gamma, &mut a, &mut lambda);
         let (mut r, mut s) = (f.clone(), gamma.clone());
@@ -55,7 +55,7 @@ fn every_form_gives_the_same_solution() {
             let (mass, g) = (mass(&mut noise, nv), noise.vector(m * nv));
             let (f, gamma) = (noise.vector(nv), noise.vector(m));
             let mut quasi = Kkt::new(nv, m);
-            quasi.scale(&mass, &g, &vec![0; nv]);
+            quasi.scale(&mass, &g, &vec![(0, None); nv]);
             let mut pivoted = quasi.clone();
             let pattern = Sparsity::dense(m, nv);
             let mut sparse = Kkt::of_blocks(&Sparsity::dense(nv, nv), &pattern);
@@ -140,7 +140,7 @@ fn four_redundant_rows_of_ten_change_no_acceleration() {
         let noisy: Vec<f64> = gamma.iter().map(|x| x + 1e-15 * noise.next()).collect();
 
         let mut kkt = Kkt::new(nv, m);
-        kkt.scale(&mass, &g_rows, &vec![0; nv]);
+        kkt.scale(&mass, &g_rows, &vec![(0, None); nv]);
         kkt.factor(&mass, &g_rows).unwrap();
         let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
         kkt.solve(f.as_slice(), &noisy, &mut a, &mut lambda);
@@ -171,19 +171,19 @@ fn units_do_not_change_the_solution() {
     let mut noise = Noise(31);
     let (nv, m) = (6, 4);
     let (mass, g, f, gamma) = (mass(&mut noise, nv), noise.vector(m * nv), noise.vector(nv), noise.vector(m));
-    let unit = [0, 0, 0, 1, 1, 1];
+    let kinds = |size| [None, None, None, Some(size), Some(size), Some(size)].map(|length| (0, length));
     let mut kkt = Kkt::new(nv, m);
-    kkt.scale(&mass, &g, &unit);
+    kkt.scale(&mass, &g, &kinds(1.0));
     kkt.factor(&mass, &g).unwrap();
     let (mut a, mut lambda) = (vec![0.0; nv], vec![0.0; m]);
     kkt.solve(&f, &gamma, &mut a, &mut lambda);
 
-    let c: Vec<f64> = unit.iter().map(|u| if *u == 1 { 1e6 } else { 1.0 }).collect();
+    let c: Vec<f64> = kinds(1e6).iter().map(|(_, length)| length.unwrap_or(1.0)).collect();
     let mass: Vec<f64> = (0..nv * nv).map(|k| mass[k] / (c[k / nv] * c[k % nv])).collect();
     let g: Vec<f64> = (0..m * nv).map(|k| 1e6 * g[k] / c[k % nv]).collect();
     let f: Vec<f64> = f.iter().zip(&c).map(|(f, c)| f / c).collect();
     let gamma: Vec<f64> = gamma.iter().map(|x| 1e6 * x).collect();
-    kkt.scale(&mass, &g, &unit);
+    kkt.scale(&mass, &g, &kinds(1e6));
     kkt.factor(&mass, &g).unwrap();
     let (mut b, mut mu) = (vec![0.0; nv], vec![0.0; m]);
     kkt.solve(&f, &gamma, &mut b, &mut mu);
@@ -200,7 +200,7 @@ fn nearness_to_a_singular_position_is_estimated() {
         let mass = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let sigma = DMatrix::from_row_slice(2, 3, &g).singular_values().min();
         let mut kkt = Kkt::new(3, 2);
-        kkt.scale(&mass, &g, &[0; 3]);
+        kkt.scale(&mass, &g, &[(0, None); 3]);
         kkt.factor(&mass, &g).unwrap();
         let (mut row, mut estimate) = ([0.0; 2], [0.0]);
         (0..2).for_each(|_| kkt.smallest_singular_values(&mut row, &mut estimate));
@@ -293,7 +293,7 @@ fn nearly_dependent_rows_hold_to_round_off() {
         let (f, gamma) = (&m_matrix * &a + &held, &g_matrix * &a);
 
         let mut kkt = Kkt::new(nv, m);
-        kkt.scale(&mass, &g, &vec![0; nv]);
+        kkt.scale(&mass, &g, &vec![(0, None); nv]);
         let off = |a_found: &[f64], lambda: &[f64]| {
             let force = g_matrix.transpose() * DVector::from_column_slice(lambda);
             distance(a_found, a.as_slice()).max(distance(force.as_slice(), held.as_slice()))
@@ -330,7 +330,7 @@ fn rows_feel_inertias_that_have_grown() {
             g[1..nv].fill(0.0);
             g.chunks_exact_mut(nv).skip(1).for_each(|row| row[0] = 0.0);
             let mut kkt = Kkt::new(nv, m);
-            kkt.scale(&mass, &g, &vec![0; nv]);
+            kkt.scale(&mass, &g, &vec![(0, None); nv]);
             let mut vectors = vec![0.0; m];
             let mut weakest = |kkt: &mut Kkt| {
                 let mut sigma = [0.0];

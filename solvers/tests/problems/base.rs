@@ -1,6 +1,6 @@
 //! What all problems share: storage, the residual from the terms, vector coordinates, the absence of events, and noise.
 
-use grashof_solvers::kkt::{metric, row_scale};
+use grashof_solvers::kkt::{Kind, metric, row_scale};
 use grashof_solvers::{Block, Dims, Pattern, Stage, State, System, Tangent, Terms};
 
 /// A system with a start and an energy.
@@ -38,7 +38,8 @@ pub(crate) fn scaled<P: Problem>(mut problem: P, base: impl Fn(&mut P) -> &mut B
     let mut terms = Terms::new(problem.dims(), problem.pattern());
     problem.terms(start.at(), Stage::Position, &mut terms);
     let pattern = &mut base(&mut problem).pattern;
-    pattern.metric = metric((0..kind.len()).map(|i| terms.mass.at(i, i)), kind);
+    let kinds: Vec<Kind> = kind.iter().map(|kind| (0, (*kind == 1).then_some(1.0))).collect();
+    pattern.metric = metric((0..kind.len()).map(|i| terms.mass.at(i, i)), &kinds);
     pattern.g_scale = row_scale(&pattern.g, terms.g.values(), &pattern.metric);
     let pattern = pattern.clone();
     let base = base(&mut problem);

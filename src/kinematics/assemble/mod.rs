@@ -126,30 +126,12 @@ fn begin<G: Space<S = f64>>(mechanism: &mut Mechanism<G>) -> Result<Begun, Assem
     Ok(Begun { q, v, modes, change, turned })
 }
 
-/// Inertias below this part of the largest in the mechanism, a size counting as 1 rad, count as that part of it: rows of a light crank feel
-/// the mass that it moves along a slide [measured, crank and rod of 1e-9 kg and 1e-11 kg at a block of 1 kg: 23 and 99 per cent of the energy
-/// lost without it, 7e-9 and 1e-8 with parts from 1e-5 to 1e-3; 1e-4 and more lose fifty times the energy in flat positions of a crank of 5 cm
-/// and 0.1 kg at a block of 100 kg at 1e-8].
-const OTHER_UNIT: f64 = 1e-5;
-
-/// Diagonal of the mass metric as drawn, free bodies at the orientation that is asked for, with the floors of [`kkt::metric`] within each
-/// kind of velocities, and one between turns and slides.
+/// Diagonal of the mass metric as drawn, free bodies at the orientation that is asked for.
 fn drawn_metric<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Vec<f64> {
     let mut dynamics = Dynamics::new(mechanism);
     let (mut q, mut modes) = (mechanism.drawn(), mechanism.modes());
     position::orient(mechanism, &mut q);
     dynamics.follow_time(0.0, &mut modes);
     dynamics.terms(0.0, &q, &vec![0.0; mechanism.nv], &modes);
-    let masses: Vec<f64> = (0..mechanism.nv).map(|k| dynamics.work.mass.at(k, k)).collect();
-    let kinds = mechanism.kinds();
-    let mut metric = kkt::metric(masses.iter().copied(), &kinds);
-    let unit = mechanism.units(mechanism.start_size());
-    let mut largest = vec![0.0; kinds.iter().max().map_or(0, |kind| kind / 2 + 1)];
-    for ((m, u), kind) in masses.iter().zip(&unit).zip(&kinds) {
-        largest[kind / 2] = f64::max(largest[kind / 2], m * u * u);
-    }
-    for ((d, u), kind) in metric.iter_mut().zip(&unit).zip(&kinds) {
-        *d = d.max(OTHER_UNIT * largest[kind / 2] / (u * u));
-    }
-    metric
+    kkt::metric((0..mechanism.nv).map(|k| dynamics.work.mass.at(k, k)), &mechanism.kinds(mechanism.start_size()))
 }
