@@ -48,7 +48,8 @@ pub(crate) fn report(file: &str, text: &str, faults: &[Fault], included: &[Inclu
     if let Some(rest) = distinct.len().checked_sub(MOST_SHOWN).filter(|rest| *rest > 0) {
         // an error among the hidden ones stays an error
         let warning = distinct.iter().skip(MOST_SHOWN).all(|fault| fault.warning);
-        let mut more = Fault::new("more", String::new(), format!("{rest} more findings are not shown"), "");
+        let told = if rest == 1 { "one more finding is not shown".to_owned() } else { format!("{rest} more findings are not shown") };
+        let mut more = Fault::new("more", String::new(), told, "");
         (more.warning, more.spot) = (warning, Spot::Nowhere);
         found.push(more.diagnostic(file, text, &spans));
     }

@@ -98,6 +98,7 @@ fn notes(results: &Results) -> String {
     let shown = findings.iter().take(FINDINGS).map(|f| format!("  {}: {}\n", word(f), f.message)).collect::<String>();
     match findings.len().saturating_sub(FINDINGS) {
         0 => shown,
+        1 => shown + "  note: one more finding is in the JSON file\n",
         more => shown + &format!("  note: {more} more findings are in the JSON file\n"),
     }
 }
@@ -162,7 +163,7 @@ mod tests {
         assert_eq!(lines.len(), FINDINGS + 1);
         assert_eq!(
             [lines[0], lines[1], lines[FINDINGS]],
-            ["  warning: energy", "  note: undefined-scalar", "  note: 1 more findings are in the JSON file"]
+            ["  warning: energy", "  note: undefined-scalar", "  note: one more finding is in the JSON file"]
         );
     }
 }

@@ -60,7 +60,7 @@ bodies:
   b: { bar: { length: 20 cm, mass: 1 kg, width: 1 cm, height: 1 cm } }
 joints: { J: { revolute: [a.end, b.start], axis: [0, 0, 1] } }
 start: { a.x: 0, a.y: 0, a.z: 1 m, a.vx: 8 m/s, a.vy: 3 m/s, a.vz: 6 m/s, J.angle: 60 deg, J.omega: 300 deg/s }
-studies: { fly: { dynamics: { until: 1.5 s, every: 20 ms }, columns: [time, a.com.x] } }
+studies: { fly: { dynamics: { until: 1.5 s, every: 20 ms }, columns: [time, a.com.x] }, coarse: { dynamics: { until: 1 s, every: 0.1 s, integrator: newmark, alpha: 0.6, beta: 1, step: 50 ms }, scalars: { late: "value(a.com.x, 9 s)" } } }
 `,
   // they hang from where they start, in the plane and in space
   ...Object.fromEntries([['hangs', 'planar', '[0, -9.81 m/s^2]', ''], ['hangs-in-space', 'spatial', '[0, 0, -9.81 m/s^2]', ', axis: [0, -1, 0]']].map(([name, space, gravity, axis]) => [name, `grashof: 1

@@ -63,6 +63,15 @@ export async function a_study_without_results_says_why(open) {
   await tab.locator('#study-title', { hasText: 'turn' }).waitFor();
 }
 
+export async function warnings_stand_before_notes(open) {
+  const { tab } = await open('thrown', { study: 'coarse' });
+  const found = await tab.locator('.findings li').allInnerTexts();
+  assert.equal(found.length, 2);
+  assert.match(found[0], /^warning: the balance of energy lacks/);
+  assert.match(found[1], /^late is not defined/);
+  assert.equal(await tab.locator('.findings li.warning').count(), 1);
+}
+
 export async function the_file_shows_the_place_of_a_finding(open) {
   const { tab } = await open('crank_rocker', { study: 'lengths' });
   const place = tab.locator('.findings .place').first();

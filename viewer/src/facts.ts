@@ -3,7 +3,7 @@
 import { type Child, h } from './dom';
 import { broken, coded, digits, heading, hinted, pretty, shownIn, valued } from './numbers';
 import { plain } from './table';
-import type { Certificate, Column, Fault, Num, Results, Run, Scalar, Solution, Statistics, Study } from './types';
+import type { Certificate, Column, Fault, Finding, Num, Results, Run, Scalar, Solution, Statistics, Study } from './types';
 
 /** Part of the largest number of a list below which another is nothing but rounding. */
 const NOTHING = 1e-14;
@@ -49,13 +49,19 @@ export function faults(all: Fault[], show: ShowPlace): HTMLElement {
   return h('ul', { class: 'findings' }, ...all.map(entry));
 }
 
-/** Why it stopped, what was found, and which expectations are not met. */
+/** Findings that say that the numbers of a motion are wrong by more than they should be: `Finding::is_warning` of the program. */
+const WARNINGS = ['energy', 'open-constraints'];
+
+/** Why it stopped, which expectations are not met, and what was found, warnings first. */
 function findings(results: Results, show: ShowPlace): HTMLElement | null {
-  const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, h('span', {}, ...coded(message)), ' ', link(place, show));
+  const entry = (kind: string, message: string, place: string) => h('li', { class: kind }, kind === 'warning' && h('strong', {}, 'warning: '), h('span', {}, ...coded(message)), ' ', link(place, show));
+  const found = [...results.findings, ...(results.solution?.findings ?? [])];
+  const warns = (f: Finding) => WARNINGS.includes(f.code);
   const all = [
     ...(results.stopped ? [entry('bad', results.stopped, results.undefined?.place || results.place)] : []),
     ...results.expectations.filter((e) => !e.met).map((e) => entry('bad', e.message, e.place)),
-    ...[...results.findings, ...(results.solution?.findings ?? [])].map((f) => entry('', f.message, f.path)),
+    ...found.filter(warns).map((f) => entry('warning', f.message, f.path)),
+    ...found.filter((f) => !warns(f)).map((f) => entry('', f.message, f.path)),
   ];
   return all.length === 0 ? null : h('ul', { class: 'findings' }, ...all);
 }
