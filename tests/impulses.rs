@@ -162,3 +162,58 @@ studies: { s: { inverse: { over: 1.5 s, samples: 3 }, columns: [d.force] } }
     let stopped = grashof::studies::run::run(case, &|| false).unwrap().stopped.unwrap();
     assert!(stopped.contains("the law of the driver `d` jumps at time = 1 s, from 0 to 0.05 (SI)"), "{stopped}");
 }
+
+#[test]
+fn what_carries_a_drive_keeps_its_momentum_over_a_kink_of_the_law() {
+    // 2 kg on the ground carry 1 kg, whose way on them turns round; nothing acts from outside
+    let text = |dynamics: &str| {
+        format!(
+            "grashof: 1
+name: turned back
+space: planar
+gravity: none
+tables: {{ law: {{ points: [[0 s, 0 m], [0.5 s, 0.1 m], [1 s, -0.1 m]] }} }}
+bodies: {{ a: {{ mass: 2 kg }}, b: {{ mass: 1 kg }} }}
+joints:
+  A: {{ slider: [ground, a.origin], axis: [1, 0] }}
+  B: {{ slider: [a.origin, b.origin], axis: [1, 0] }}
+drivers: {{ d: {{ joint: B, position: law(t) }} }}
+start: {{ A.position: 0 m, A.velocity: 0.3 m/s }}
+studies: {{ s: {{ dynamics: {{ until: 1 s, every: 0.1 s, {dynamics} }}, columns: [A.position, A.velocity, momentum.x] }} }}
+"
+        )
+    };
+    for coordinates in ["joint", "cartesian", "minimal"] {
+        for scheme in ["tolerance: 1e-9", "integrator: radau5, tolerance: 1e-9", "integrator: rk4, step: 10 ms"] {
+            let outcome = study(&text(&format!("coordinates: {coordinates}, {scheme}")), "s", Coordinates::Joint);
+            // p = 3 v + q̇: at 0.5 s the rate q̇ jumps by −0.6 m/s, and v by 0.2 m/s
+            let last = outcome.rows.last().expect("a row");
+            close(&format!("{coordinates}, {scheme}"), &last[last.len() - 3..], &[0.15 + 0.25, 0.5, 1.1], 1e-9);
+            assert_eq!(codes(&outcome), ["velocity-jump"], "{coordinates}, {scheme}");
+        }
+    }
+}
+
+#[test]
+fn a_spring_over_what_moves_with_time_does_the_work_of_a_driver() {
+    // of one mass on a spring whose other end goes to and fro: ∫ F ds of that end is what the energy gains
+    let text = "grashof: 1
+name: shaken
+space: planar
+gravity: none
+bodies: { b: { mass: 1 kg } }
+joints: { S: { slider: [ground, b.origin], axis: [1, 0] } }
+springs: { k: { stretch: \"b.x + 0.1 m*sin(4 rad/s*t)\", stiffness: 10 N/m } }
+studies:
+  s:
+    dynamics: { until: 0.6 s, every: 10 ms, tolerance: 1e-10 }
+    columns: [time, b.x]
+    scalars: { drivers: work_drivers, gain: \"last(energy.total) - value(energy.total, 0 s)\" }
+";
+    for coordinates in [Coordinates::Joint, Coordinates::Cartesian] {
+        let outcome = study(text, "s", coordinates);
+        let [drivers, gain] = outcome.scalars[..] else { panic!("{:?}", outcome.scalars) };
+        assert!(gain > 0.03 && (drivers - gain).abs() < 1e-9, "{drivers} {gain}");
+        assert!(outcome.findings.is_empty(), "{:?}", outcome.findings);
+    }
+}

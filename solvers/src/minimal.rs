@@ -18,6 +18,7 @@ use crate::{Ahead, At, Block, Common, Dims, Effect, Line, Pattern, Power, Span, 
 use loops::Loops;
 use std::cell::RefCell;
 
+mod crossing;
 mod loops;
 
 /// Part of the best quality below which the chart is changed, unless the caller knows better.
@@ -466,16 +467,7 @@ impl<S: System> System for Minimal<S> {
             state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
             return Effect::Restart;
         }
-        loops.state.work.copy_from_slice(&state.work);
-        let Loops { inner, state: whole, full, .. } = loops;
-        let effect = inner.cross(root, whole, full);
-        let (modes, _) = state.modes.split_at_mut(self.inner.modes);
-        modes.copy_from_slice(&whole.modes);
-        state.q.copy_from_slice(&whole.q);
-        state.z.copy_from_slice(&whole.z);
-        state.live.copy_from_slice(&whole.live);
-        state.v.iter_mut().zip(&loops.independent).for_each(|(v, &i)| *v = loops.state.v[i]);
-        loops.forget();
+        let effect = loops.cross(root, state);
         let (Effect::Impulse { restitution, stops } | Effect::Bounce { restitution, stops }) = effect else { return effect };
         combine(&loops.full, &loops.p, row);
         // row·v has a part that rows which depend on time prescribe; the jump is meant of the whole

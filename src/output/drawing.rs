@@ -2,9 +2,11 @@
 
 use super::lettering::{Label, Lettering, Name, Named, Obstacle};
 use super::marks;
+use super::measure::encloses;
 use super::naming;
+use super::painting::{Painted, painted};
 use super::picture::Picture;
-use super::pose::{Drawing, FormKind, LinkKind, Placement, Symbol, SymbolKind, Width};
+use super::pose::{Drawing, Form, FormKind, LinkKind, Placement, Symbol, SymbolKind, Width};
 use super::raster::RenderError;
 use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
@@ -240,12 +242,13 @@ impl Pen<'_> {
                     self.signs.hatched_below(&mut self.scene, foot, 18.0, false);
                 }
             }
-            if ink.strong || symbol.boxed {
+            // a body with a shape beside its guide is seen to slide on it
+            if symbol.boxed || (ink.strong && placement.clear == 0.0) {
                 self.signs.slider(&mut self.scene, placement, ink);
             }
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
-            // in the plane it stands in front of bodies with an outline
-            if self.drawing.axes.is_some() {
+            // a bearing that its bodies would hide stands in front of them
+            if self.drawing.axes.is_some() && !self.is_covered(symbol, placement.at) {
                 self.signs.ground(&mut self.scene, placement.at, false);
             }
             let side = if symbol.above { -1.0 } else { 1.0 };
@@ -253,21 +256,29 @@ impl Pen<'_> {
         }
     }
 
-    /// The bearings of hinges in the plane, which stand in front of all bodies with an outline: behind one they would not be seen.
+    /// The bearings of hinges that stand in front of bodies, behind which they would not be seen: in the plane of all with an outline, in
+    /// space of the own ones.
     fn bearings(&mut self, joints: &[(&Symbol, Placement)]) {
         let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
-            self.signs.ground(&mut self.scene, placement.at, symbol.above);
+            if self.drawing.axes.is_none() || self.is_covered(symbol, placement.at) {
+                self.signs.ground(&mut self.scene, placement.at, symbol.above);
+            }
         }
+    }
+
+    /// Whether an area of one of the bodies of a joint lies around its place in the first position.
+    fn is_covered(&self, symbol: &Symbol, at: Point) -> bool {
+        let bodies = symbol.bodies.iter().filter_map(|body| self.drawing.bodies.get(*body)?.poses.first());
+        let shapes = bodies.flatten().filter_map(|form| self.sheet.form(form));
+        shapes.filter(|kind| matches!(kind, FormKind::Area { .. } | FormKind::Disc { .. })).any(|kind| encloses(&naming::line(&kind), at))
     }
 
     /// The shapes of all bodies, those farther from the eye first.
     fn forms(&mut self, pose: usize, strength: f64, joints: &[(&Symbol, Placement)]) {
-        let sheet = self.sheet;
         let rods = self.drawing.links.iter().filter(|link| link.kind == LinkKind::Rod).filter_map(|link| {
             let [from, to] = *link.poses.get(pose)?;
-            let kind = FormKind::Bar { from, to, width: Width::Drawn(0) };
-            Some((ROD, 0.0, sheet.form(&super::pose::Form { kind, depth: 0.0 })?))
+            Some((ROD, Form::flat(FormKind::Bar { from, to, width: Width::Drawn(0) }, 0.0)))
         });
         let bodies = self.drawing.bodies.iter().enumerate().flat_map(|(index, body)| {
             let forms = body.poses.get(pose).map_or(&[][..], Vec::as_slice);
@@ -277,32 +288,54 @@ impl Pen<'_> {
                 .iter()
                 .enumerate()
                 .filter_map(move |(k, form)| if pose == 0 { Some(form.clone()) } else { form.as_ghost(first.get(k)) });
-            shown.filter_map(move |form| Some((color, form.depth, sheet.form(&form)?)))
+            shown.map(move |form| (color, form))
         });
-        let mut all: Vec<_> = bodies.chain(rods).collect();
-        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let (colors, all): (Vec<Color>, Vec<Form>) = bodies.chain(rods).filter(|(_, form)| self.sheet.form(form).is_some()).unzip();
+        let (sheet, signs) = (self.sheet, self.signs);
+        let painted = painted(&all.iter().collect::<Vec<_>>(), |form| match sheet.form(form) {
+            Some(FormKind::Bar { width, .. }) => signs.bar(width) / sheet.scale,
+            _ => 0.0,
+        });
         // in the plane what has an outline lies below 0
-        let outlines = all.partition_point(|(_, depth, _)| *depth < 0.0);
-        let front = (pose == 0 && self.drawing.axes.is_none()).then_some(outlines);
-        let end = all.len();
-        for (k, (color, _, form)) in all.into_iter().enumerate() {
+        let outlines = painted.partition_point(|shape| all[shape.form()].depth < 0.0);
+        let end = painted.len();
+        let front = (pose == 0).then_some(if self.drawing.axes.is_none() { outlines } else { end });
+        for (k, shape) in painted.into_iter().enumerate() {
             if front == Some(k) {
                 self.bearings(joints);
             }
-            // A body of one point is shown by the joint there, if there is one.
-            let single = match &form {
-                FormKind::Plate { points } if points.len() == 1 => Some(points[0]),
-                _ => None,
-            };
-            if single.is_some_and(|at| joints.iter().any(|(_, placement)| near(placement.at, at))) {
-                continue;
-            }
-            let outline = self.signs.form(&mut self.scene, &form, &Self::looks(color, strength));
+            let form = &all[shape.form()];
+            let looks = Self::looks(colors[shape.form()], strength);
+            let Some(outline) = self.shape(form, &shape, &looks, joints) else { continue };
             self.letters.avoid_line(&outline, if strength == 1.0 { Obstacle::Body } else { Obstacle::Shade });
         }
         if front == Some(end) {
             self.bearings(joints);
         }
+    }
+
+    /// A shape, or a part of it; gives the line around it.
+    fn shape(&mut self, form: &Form, shape: &Painted, looks: &Looks, joints: &[(&Symbol, Placement)]) -> Option<Vec<Point>> {
+        let kind = match (shape, &form.kind) {
+            (Painted::Part(_, facet), FormKind::Area { shade, .. }) => {
+                let points: Vec<Point> = facet.corners.iter().map(|p| self.sheet.point([p[0], p[1]])).collect();
+                return Some(self.signs.part(&mut self.scene, &points, &facet.edges, *shade, looks));
+            }
+            (Painted::Part(_, facet), FormKind::Bar { width, .. }) => {
+                let [from, to] = [0, facet.corners.len() - 1].map(|k| [facet.corners[k][0], facet.corners[k][1]]);
+                self.sheet.form(&Form::flat(FormKind::Bar { from, to, width: *width }, form.depth))?
+            }
+            _ => self.sheet.form(form)?,
+        };
+        // A body of one point is shown by the joint there, if there is one.
+        let single = match &kind {
+            FormKind::Plate { points } if points.len() == 1 => Some(points[0]),
+            _ => None,
+        };
+        if single.is_some_and(|at| joints.iter().any(|(_, placement)| near(placement.at, at))) {
+            return None;
+        }
+        Some(self.signs.form(&mut self.scene, &kind, looks))
     }
 
     /// The lines of actuators in a pale position, and of springs and dampers where there are few of those.
@@ -386,7 +419,7 @@ impl Pen<'_> {
     /// The names of the strong position, unless they would cover more of the sheet than can be read, and those of paths.
     fn names(&mut self, names: Vec<Name>, paper: Rect) {
         // the one path of a body that is named goes without a name of its own
-        let known: Vec<String> = names.iter().map(|name| name.text.clone()).collect();
+        let known: Vec<String> = names.iter().flat_map(|name| name.text.split(naming::COMMA)).map(str::to_owned).collect();
         let area: f64 = names.iter().map(|name| font::width(&name.text, LETTERS) * LETTERS).sum();
         let mut all = if area <= NAMED * paper.width() * paper.height() { names } else { Vec::new() };
         let alone = self.drawing.traces.len() == 1;

@@ -150,7 +150,7 @@ mod tests {
     fn a_ring_is_its_teeth_and_a_circle() {
         let outline = vec![[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
         let kind = FormKind::Gear { center: [0.0; 2], radius: 1.0, teeth: 300, outline, spoke: None, rim: Some(1.25) };
-        let ring = Outline { name: String::new(), poses: vec![vec![Form { kind, depth: 0.0 }]] };
+        let ring = Outline { name: String::new(), poses: vec![vec![Form::flat(kind, 0.0)]] };
         let text = write_dxf(&Drawing { bodies: vec![Outline::default(), ring], ..Drawing::default() });
         let count = |entity: &str| text.lines().filter(|line| line.trim() == entity).count();
         assert_eq!((count("POLYLINE"), count("VERTEX"), count("CIRCLE")), (1, 4, 1), "{text}");
@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_bar_is_drawn_in_its_true_length() {
-        let bar = Form { kind: FormKind::Bar { from: [0.0, 0.0], to: [0.25, 0.0], width: Width::Given(0.02) }, depth: 0.0 };
+        let bar = Form::flat(FormKind::Bar { from: [0.0, 0.0], to: [0.25, 0.0], width: Width::Given(0.02) }, 0.0);
         let body = Outline { name: "arm".into(), poses: vec![vec![bar]] };
         let hinge =
             Symbol { name: "A\u{3b8}".into(), poses: vec![Placement { at: [0.25, 0.0], ..Placement::default() }], ..Symbol::default() };

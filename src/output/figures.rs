@@ -2,7 +2,7 @@
 
 use super::units::pretty;
 use super::{Axis, Curve, Figure, Scale, poles};
-use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results, bends};
+use crate::results::{Column, Family, Plot, PlotAxis, PlotBeside, Results, bends, largest};
 use std::collections::BTreeSet;
 
 /// Switches that are marked by lines in a figure, at most.
@@ -69,8 +69,10 @@ fn of_columns(results: &Results, plot: &Plot, runs: &[(Option<&str>, &Results)])
 /// Rows before switches at which a curve of a plot shows. Lines help at a few; many would cover the curves.
 fn marked(run: &Results, plot: &Plot) -> Vec<usize> {
     let shown = plot.show.iter().chain(plot.right.iter().flat_map(|right| &right.show)).filter_map(|name| column(run, name));
-    let of = |column: &Column| bends(&run.independent.values, &column.values, &run.table.switches);
-    let rows: BTreeSet<usize> = shown.flat_map(of).collect();
+    let shown: Vec<&Column> = shown.collect();
+    let largest = largest(shown.iter().copied());
+    let of = |column: &&Column| bends(&run.independent.values, column, &largest, &run.table.switches);
+    let rows: BTreeSet<usize> = shown.iter().flat_map(of).collect();
     if rows.len() > MOST_MARKED { Vec::new() } else { rows.into_iter().collect() }
 }
 

@@ -30,6 +30,7 @@ mod measure;
 mod moves;
 mod naming;
 mod outlines;
+mod painting;
 mod panel;
 #[cfg(feature = "parquet")]
 mod parquet;

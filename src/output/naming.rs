@@ -17,6 +17,8 @@ const TO_EDGE: [f64; 2] = [0.5, 0.8];
 const EDGES: usize = 6;
 /// Names of one place that stand side by side, if there are more than one more.
 const TOGETHER: usize = 3;
+/// Between them.
+pub(super) const COMMA: &str = ", ";
 
 /// All names of the strong position, `size` being that of the signs. Joints first: their names have the least choice.
 pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
@@ -26,7 +28,9 @@ pub(super) fn all(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         let forms: Vec<FormKind> = bodies[index].iter().map(|(_, form)| form.clone()).collect();
         let Some((at, reach)) = middle(&forms, size) else { continue };
         let depth = bodies[index].iter().map(|(depth, _)| *depth).fold(f64::NEG_INFINITY, f64::max);
-        let above = |other: usize| bodies[other].iter().filter(|(d, form)| *d > depth && hides(form)).map(|(_, form)| line(form));
+        // of what is equally near the later body is drawn above
+        let over = |other: usize, d: f64| d > depth || (d == depth && other > index);
+        let above = |other: usize| bodies[other].iter().filter(move |(d, form)| over(other, *d) && hides(form)).map(|(_, form)| line(form));
         let above: Vec<Vec<Point>> = (1..bodies.len()).filter(|other| *other != index).flat_map(above).collect();
         let seen = |at: &Point| !above.iter().any(|line| encloses(line, *at));
         let mut places: Vec<Point> = std::iter::once(at).chain(beside(&forms)).collect();
@@ -59,7 +63,7 @@ fn forms(body: &Outline, sheet: &Sheet) -> Vec<(f64, FormKind)> {
 }
 
 /// The middle line of a bar, or the edge of an area, which returns to its first point.
-fn line(form: &FormKind) -> Vec<Point> {
+pub(super) fn line(form: &FormKind) -> Vec<Point> {
     let outline = match form {
         FormKind::Plate { points } => hull(points),
         FormKind::Disc { center, radius, .. } | FormKind::Gear { center, radius, .. } | FormKind::Mass { center, radius } => {
@@ -120,7 +124,7 @@ fn joints(drawing: &Drawing, sheet: &Sheet, size: f64) -> Vec<Name> {
         }
     }
     let joined = |names: Vec<&str>| {
-        if names.len() <= TOGETHER + 1 { names.join(", ") } else { names[..TOGETHER].join(", ") + ", ..." }
+        if names.len() <= TOGETHER + 1 { names.join(COMMA) } else { names[..TOGETHER].join(COMMA) + COMMA + "..." }
     };
     places
         .into_iter()

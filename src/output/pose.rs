@@ -50,9 +50,26 @@ pub struct Form {
     pub kind: FormKind,
     /// What is nearer to the eye has more of it, and is drawn later.
     pub depth: f64,
+    /// In space the flat pieces that it is made of, by which it is told what it hides; none of what is placed as a whole by its depth.
+    pub facets: Vec<Facet>,
+}
+
+/// A line, or a flat convex area, in space: lengths to the right, upwards, and towards the eye.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facet {
+    /// Around it, m.
+    pub corners: Vec<[f64; 3]>,
+    /// Which of its edges, each from a corner to the next, belong to the outline of the shape.
+    pub edges: Vec<bool>,
 }
 
 impl Form {
+    /// A shape that is placed as a whole.
+    #[must_use]
+    pub fn flat(kind: FormKind, depth: f64) -> Self {
+        Self { kind, depth, facets: Vec::new() }
+    }
+
     /// How a shape is shown in a pale position: wheels without their teeth, and those that stay in their place not at all, which would fill
     /// the gaps between the teeth of the `strong` position.
     pub(super) fn as_ghost(&self, strong: Option<&Self>) -> Option<Self> {
@@ -62,7 +79,7 @@ impl Form {
             return None;
         }
         let kind = FormKind::Disc { center: *center, radius: rim.unwrap_or(*radius), spoke: *spoke };
-        Some(Self { kind, depth: self.depth })
+        Some(Self::flat(kind, self.depth))
     }
 }
 

@@ -12,6 +12,8 @@ pub(super) const BAR: f64 = 20.0;
 const ROD: f64 = 0.55;
 /// Half length and half height of a sliding box.
 const BOX: [f64; 2] = [24.0, 16.0];
+/// How far the parts of an area reach over their edges, pixels.
+const SEAM: f64 = 0.6;
 /// Teeth that are closer are not drawn, pixels.
 const CLOSE: f64 = 5.0;
 
@@ -24,6 +26,13 @@ pub(super) struct Looks {
     pub(super) strong: bool,
     /// How strongly it is drawn, 1 at most.
     pub(super) strength: f64,
+}
+
+impl Looks {
+    /// The colour of an area in so much light, 1 at most.
+    fn lit(&self, shade: f64) -> Color {
+        shaded(pale(self.fill, if self.strong { 0.85 } else { 0.5 }), 1.0 - 0.5 * (1.0 - shade) * self.strength)
+    }
 }
 
 /// The signs in the size that a mechanism leaves room for.
@@ -58,8 +67,7 @@ impl Signs {
             FormKind::Bar { from, to, width } => self.rounded(scene, vec![*from, *to], self.bar(*width), looks),
             FormKind::Plate { points } => self.rounded(scene, hull(points), BAR * self.size, looks),
             FormKind::Area { points, shade } => {
-                let fill = shaded(pale(looks.fill, if looks.strong { 0.85 } else { 0.5 }), 1.0 - 0.5 * (1.0 - shade) * looks.strength);
-                scene.shape(points.clone(), Some(fill), thin);
+                scene.shape(points.clone(), Some(looks.lit(*shade)), thin);
                 points.iter().chain(points.first()).copied().collect()
             }
             FormKind::Wheel { outline, face } => {
@@ -110,6 +118,31 @@ impl Signs {
                 circle(*center, radius)
             }
         }
+    }
+
+    /// A part of an area, with those of its edges that belong to the outline; gives the line around it.
+    pub(super) fn part(self, scene: &mut Scene, points: &[Point], edges: &[bool], shade: f64, looks: &Looks) -> Vec<Point> {
+        // parts that meet leave no seam
+        let fill = looks.lit(shade);
+        scene.shape(points.to_vec(), Some(fill), Some(Stroke::solid(fill, SEAM)));
+        let closed: Vec<Point> = points.iter().chain(points.first()).copied().collect();
+        let stroke = Stroke::solid(looks.edge, self.rim(looks) / 2.0);
+        // edges that follow each other are one line
+        let mut line: Vec<Point> = Vec::new();
+        for (ends, drawn) in closed.windows(2).zip(edges) {
+            if *drawn && line.is_empty() {
+                line.push(ends[0]);
+            }
+            match drawn {
+                true => line.push(ends[1]),
+                false if !line.is_empty() => scene.line(std::mem::take(&mut line), stroke),
+                false => {}
+            }
+        }
+        if !line.is_empty() {
+            scene.line(line, stroke);
+        }
+        closed
     }
 
     /// How wide a bar is drawn, in pixels.

@@ -1,5 +1,8 @@
 //! At which switches a curve shows.
 
+use super::Column;
+use std::collections::BTreeMap;
+
 /// Nodes of the polynomials whose slopes at a switch are compared; those of one less tell how good these are.
 const NODES: usize = 4;
 /// Part of the range of a curve by which it has to jump to show.
@@ -7,17 +10,37 @@ const JUMP: f64 = 3e-3;
 /// Angle by which a curve has to bend to show, rad, in a square picture of its whole range.
 const BEND: f64 = 0.03;
 
-/// Of the `switches` of a table, rows that stand just before one and at the x of the row that follows, those where a curve `y` over `x`
-/// visibly jumps, bends, begins or ends.
+/// Part of the largest value of a unit by which a column varies through rounding alone.
+const ROUNDING: f64 = 1e-9;
+
+/// The largest value of the columns of each unit.
 #[must_use]
-pub fn bends(x: &[f64], y: &[f64], switches: &[usize]) -> Vec<usize> {
+pub fn largest<'a>(columns: impl IntoIterator<Item = &'a Column>) -> BTreeMap<&'a str, f64> {
+    let mut all = BTreeMap::new();
+    for column in columns {
+        let largest: &mut f64 = all.entry(column.unit.as_str()).or_default();
+        *largest = column.values.iter().filter(|value| value.is_finite()).fold(*largest, |largest, value| largest.max(value.abs()));
+    }
+    all
+}
+
+/// Of the `switches` of a table, rows that stand just before one and at the x of the row that follows, those where a `column` over `x`
+/// visibly jumps, bends, begins or ends. What varies by nothing beside the `largest` value of its unit is constant.
+#[must_use]
+pub fn bends(x: &[f64], column: &Column, largest: &BTreeMap<&str, f64>, switches: &[usize]) -> Vec<usize> {
+    let least = largest.get(column.unit.as_str()).map_or(0.0, |largest| ROUNDING * largest);
+    shown(x, &column.values, least, switches)
+}
+
+/// The same of a curve that is constant if it varies by no more than `least`.
+fn shown(x: &[f64], y: &[f64], least: f64, switches: &[usize]) -> Vec<usize> {
     let [wide, high] = [range(x), range(y)];
     let shows = |&&row: &&usize| {
         let (Some(before), Some(after)) = (y.get(row), y.get(row + 1)) else { return false };
         if before.is_finite() != after.is_finite() {
             return true;
         }
-        if !(wide > 0.0 && high > 0.0) || before.is_nan() {
+        if !(wide > 0.0 && high > least) || before.is_nan() {
             return false;
         }
         let angle = |rows: &[usize]| angle(rows.iter().map(|&row| (x[row] / wide, y[row] / high)).collect());
@@ -48,10 +71,10 @@ fn piece(x: &[f64], y: &[f64], row: usize, step: isize) -> Vec<usize> {
     rows
 }
 
-/// The angle in which a curve through some points leaves the first of them, and about how far that is off; none of a single point.
+/// The angle in which a curve through some points leaves the first of them, and about how far that is off; none of fewer than three, of
+/// which a chord tells no slope.
 fn angle(points: Vec<(f64, f64)>) -> Option<(f64, f64)> {
-    let best = slope(&points)?;
-    let worse = if points.len() > 2 { slope(&points[..points.len() - 1])? } else { best };
+    let [best, worse] = [slope(&points)?, slope(points.get(..points.len() - 1).filter(|fewer| fewer.len() > 1)?)?];
     Some((best.atan(), (best.atan() - worse.atan()).abs()))
 }
 
@@ -84,7 +107,7 @@ mod tests {
 
     fn shows(before: impl Fn(f64) -> f64, after: impl Fn(f64) -> f64) -> bool {
         let [x, y] = rows(before, after);
-        bends(&x, &y, &[20]) == [20]
+        shown(&x, &y, 0.0, &[20]) == [20]
     }
 
     #[test]
@@ -99,6 +122,26 @@ mod tests {
         assert!(!shows(|_| 0.0, |x| (x - 1.0).powi(2)));
         assert!(shows(|_| f64::NAN, |x| x));
         assert!(!shows(|_| 1.0, |_| 1.0));
+    }
+
+    #[test]
+    fn two_rows_tell_no_slope() {
+        // a smooth curve with another switch a row later
+        let y = |x: f64| x * x;
+        let x = [0.0, 0.2, 0.4, 0.6, 0.8, 0.8, 1.0, 1.0, 1.2, 1.4];
+        assert!(shown(&x, &x.map(y), 0.0, &[4, 6]).is_empty());
+        let jumps = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        assert_eq!(shown(&x, &jumps, 0.0, &[4, 6]), [4, 6]);
+    }
+
+    #[test]
+    fn rounding_does_not_bend() {
+        let column = |name: &str, values: Vec<f64>| Column { name: name.into(), unit: "J".into(), values, ..Column::default() };
+        let [x, noise] = rows(|x| 1e-12 * (900.0 * x).sin(), |x| -1e-12 * x);
+        let [total, kinetic] = [column("total", noise.clone()), column("kinetic", noise.iter().map(|e| 1e12 * e).collect())];
+        assert!(!shown(&x, &noise, 0.0, &[20]).is_empty());
+        assert!(bends(&x, &total, &largest([&total, &kinetic]), &[20]).is_empty());
+        assert_eq!(bends(&x, &kinetic, &largest([&total, &kinetic]), &[20]), [20]);
     }
 
     #[test]

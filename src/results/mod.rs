@@ -18,7 +18,7 @@ mod unknown;
 
 pub use crate::numerics::extremum::{Extremes, Extremum};
 pub use crate::numerics::resolve::Resolution;
-pub use bends::bends;
+pub use bends::{bends, largest};
 pub use certificate::{Certificate, March};
 pub use compared::{Compared, ComparedRun, References};
 pub use failure::{Failure, Undefined, Unsolved};

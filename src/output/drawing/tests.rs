@@ -1,10 +1,10 @@
 //! Drawings as they are laid out.
 
 use super::*;
-use crate::output::pose::{Form, Link, Outline, Trace};
+use crate::output::pose::{Link, Outline, Trace};
 
 fn plate(points: Vec<[f64; 2]>) -> Vec<Form> {
-    vec![Form { kind: FormKind::Plate { points }, depth: 0.0 }]
+    vec![Form::flat(FormKind::Plate { points }, 0.0)]
 }
 
 fn named(name: &str, poses: Vec<Vec<Form>>) -> Outline {
@@ -17,7 +17,7 @@ fn odd_mechanisms_make_a_picture_all_the_same() {
     let symbol =
         |at| Symbol { kind: SymbolKind::Slide, driven: true, poses: vec![Placement { at, ..Placement::default() }], ..Symbol::default() };
     for at in [[0.0, 0.0], [nan, 1.0], [1e300, 0.0]] {
-        let round = Form { kind: FormKind::Disc { center: at, radius: nan, spoke: Some(at) }, depth: nan };
+        let round = Form::flat(FormKind::Disc { center: at, radius: nan, spoke: Some(at) }, nan);
         let body = named("b", vec![plate(vec![at]), vec![round], plate(vec![at, at, at])]);
         let trace = Trace { name: "p".into(), points: vec![at, [0.5, 0.5], [nan, nan]] };
         let link = Link { poses: vec![[at, [1.0, 0.0]]], turned: vec![[nan; 2]], kind: LinkKind::Torsion, ..Link::default() };
@@ -45,7 +45,7 @@ fn texts(drawing: &Drawing) -> Vec<String> {
 #[test]
 fn a_plate_that_is_hidden_in_its_middle_is_named_where_it_is_seen() {
     let corners = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let disc = |radius| Form { kind: FormKind::Disc { center: [0.0; 2], radius, spoke: None }, depth: -0.1 };
+    let disc = |radius| Form::flat(FormKind::Disc { center: [0.0; 2], radius, spoke: None }, -0.1);
     let off = |radius: f64| {
         let plate = Form { depth: -1.0, ..plate(corners.clone()).remove(0) };
         let bodies = vec![Outline::default(), named("plate", vec![vec![plate]]), named("wheel", vec![vec![disc(radius)]])];
@@ -124,10 +124,64 @@ fn gears_that_stay_in_their_place_are_not_seen_in_pale_positions() {
     let gear = |x: f64| {
         let kind =
             FormKind::Gear { center: [x, 0.0], radius: 0.1, teeth: 20, outline: vec![[x, 0.1]; 3], spoke: Some([x, 0.0]), rim: None };
-        Form { kind, depth: 0.0 }
+        Form::flat(kind, 0.0)
     };
     assert!(gear(0.0).as_ghost(Some(&gear(0.0))).is_none());
     // one that travels is seen as a disc, without the teeth that would fill the gaps of others
     let ghost = gear(0.5).as_ghost(Some(&gear(0.0))).expect("a wheel elsewhere");
     assert!(matches!(ghost.kind, FormKind::Disc { center: [0.5, 0.0], .. }), "{ghost:?}");
+}
+
+/// Where the bearing of a hinge lies among the items, and where the body at that place.
+fn bearing_and_body(at: [f64; 2], axes: Option<[[f64; 2]; 3]>) -> [usize; 2] {
+    let square = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let body = named("", vec![vec![Form::flat(FormKind::Area { points: square, shade: 1.0 }, -1.0)]]);
+    let hinge = Symbol { grounded: true, bodies: [0, 1], poses: vec![Placement { at, ..Placement::default() }], ..Symbol::default() };
+    let drawing = Drawing { bodies: vec![Outline::default(), body], joints: vec![hinge], axes, ..Drawing::default() };
+    let items = layout(&drawing).items;
+    let filled = |corners: usize| {
+        let found =
+            items.iter().position(|item| matches!(item, Item::Path { points, fill: Some(_), closed: true, .. } if points.len() == corners));
+        found.expect("a shape")
+    };
+    [filled(3), filled(4)]
+}
+
+#[test]
+fn a_bearing_that_its_body_would_hide_stands_before_it() {
+    let axes = Some([[1.0, 0.0], [0.0, 1.0], [0.3, 0.3]]);
+    for (at, axes, before) in [([0.2, 0.1], axes, true), ([1.5, 0.0], axes, false), ([0.2, 0.1], None, true)] {
+        let [bearing, body] = bearing_and_body(at, axes);
+        assert_eq!(bearing > body, before, "{at:?} {axes:?}: {bearing} {body}");
+    }
+}
+
+#[test]
+fn of_two_equal_plates_the_lower_is_named_beside_the_upper() {
+    let square = |x: f64| plate(vec![[x - 1.0, -1.0], [x + 1.0, -1.0], [x + 1.0, 1.0], [x - 1.0, 1.0]]);
+    let bodies = vec![Outline::default(), named("left", vec![square(0.0)]), named("right", vec![square(0.7)])];
+    let drawing = Drawing { bodies, ..Drawing::default() };
+    let found = labels(&drawing);
+    let left = found.iter().find(|label| label.text == "left").expect("a name").at;
+    let edge = plan(&drawing).sheet.point([-0.3, 0.0]);
+    assert!(left[0] < edge[0], "{found:?}, {edge:?}");
+}
+
+#[test]
+fn a_path_called_like_one_of_several_joints_at_a_place_is_said_to_be_a_path() {
+    let symbol = |name: &str| Symbol { name: name.into(), poses: vec![Placement::default()], ..Symbol::default() };
+    let traces = vec![Trace { name: "Z".into(), points: vec![[0.0, 1.0], [1.0, 1.0]] }, Trace { name: "p".into(), points: vec![[0.0; 2]] }];
+    let drawing = Drawing { joints: vec![symbol("X"), symbol("Z")], traces, ..Drawing::default() };
+    let texts = texts(&drawing);
+    assert!(texts.contains(&"X, Z".into()) && texts.contains(&"path of Z".into()), "{texts:?}");
+}
+
+#[test]
+fn a_box_is_drawn_where_no_shape_of_the_body_shows_that_it_slides() {
+    let boxes = |boxed: bool, clear: f64| {
+        let way = Placement { way: Some([[0.0, 0.0], [1.0, 0.0]]), along: [1.0, 0.0], clear, ..Placement::default() };
+        let slide = Symbol { kind: SymbolKind::Slide, boxed, poses: vec![way], ..Symbol::default() };
+        layout(&Drawing { joints: vec![slide], ..Drawing::default() }).items.len()
+    };
+    assert!(boxes(false, 0.0) > boxes(false, 0.1) && boxes(true, 0.1) > boxes(false, 0.1));
 }

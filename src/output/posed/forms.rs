@@ -2,13 +2,17 @@
 
 use super::{Posed, telescope};
 use crate::output::polytope;
-use crate::output::pose::{Form, FormKind, Width};
+use crate::output::pose::{Facet, Form, FormKind, Width};
 use crate::output::view::{across, cross, dot};
 use crate::results::scene::{Place, Shape, rim, wheel};
 use std::f64::consts::TAU;
 
 /// Corners of a circle.
 const CORNERS: usize = 96;
+/// Every so many of them are corners of the facets of a round shape.
+const COARSER: usize = 2;
+/// Light on the side of a round bar.
+const SIDE: f64 = 0.75;
 /// Length of the line that shows how a gear is turned, as part of its pitch radius.
 const SPOKE: f64 = 0.8;
 /// How far points on one line are off it by rounding, as part of its length.
@@ -75,7 +79,7 @@ impl Posed<'_> {
                     let mut rim = center.clone();
                     rim[0] += radius;
                     let (center, spoke) = (self.view.flat(world(center)), Some(self.view.flat(world(&rim))));
-                    vec![Form { kind: FormKind::Disc { center, radius: *radius, spoke }, depth: -8f64.sqrt() * radius }]
+                    vec![Form::flat(FormKind::Disc { center, radius: *radius, spoke }, -8f64.sqrt() * radius)]
                 }
             },
             Shape::Gear { center, radius, teeth, first } => {
@@ -90,7 +94,7 @@ impl Posed<'_> {
                     spoke: (!ring).then(|| flat([center[0] + SPOKE * radius, center[1]])),
                     rim: ring.then(|| rim(*radius, *teeth)),
                 };
-                vec![Form { kind, depth: -8f64.sqrt() * radius.abs() }]
+                vec![Form::flat(kind, -8f64.sqrt() * radius.abs())]
             }
             Shape::Box { center, size } => {
                 let edges: [[f64; 3]; 3] = std::array::from_fn(|i| {
@@ -107,12 +111,12 @@ impl Posed<'_> {
             Shape::Sphere { center, radius } => {
                 let c = world(center);
                 let kind = FormKind::Disc { center: self.view.flat(c), radius: radius * self.view.stretch(), spoke: None };
-                vec![Form { kind, depth: self.view.depth(c) }]
+                vec![Form::flat(kind, self.view.depth(c))]
             }
             Shape::Mass { at, radius, .. } => {
                 let c = world(at);
                 let depth = if planar { f64::INFINITY } else { self.view.depth(c) + radius };
-                vec![Form { kind: FormKind::Mass { center: self.view.flat(c), radius: radius * self.view.stretch() }, depth }]
+                vec![Form::flat(FormKind::Mass { center: self.view.flat(c), radius: radius * self.view.stretch() }, depth)]
             }
         }
     }
@@ -124,14 +128,16 @@ impl Posed<'_> {
             let n = cross(from(k), from(k + 1));
             std::array::from_fn(|i| sum[i] + n[i])
         });
-        self.light(normal).map(|light| self.area(corners, light))
+        self.light(normal).map(|light| self.flat_face(corners, light))
     }
 
     /// A bar of a body.
     fn bar(&self, poses: &[f64], body: usize, [a, b]: [[f64; 3]; 2], width: Option<f64>) -> Form {
         let width = width.map_or_else(|| self.width(body), Width::Given);
         let depth = self.depth_of_bar(body).unwrap_or_else(|| self.depth(&[a, b]).min(self.within(poses, body)));
-        Form { kind: FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width }, depth }
+        let kind = FormKind::Bar { from: self.view.flat(a), to: self.view.flat(b), width };
+        let line = Facet { corners: vec![self.seen(a), self.seen(b)], edges: vec![true] };
+        Form { kind, depth, facets: if self.scene.dimensions == 2 { Vec::new() } else { vec![line] } }
     }
 
     /// The width of a bar of a body to which the model gives none.
@@ -170,16 +176,28 @@ impl Posed<'_> {
         let line = self.depth_of_bar(body).map(|depth| (depth, crate::output::outlines::hull(&points)));
         match line {
             Some((depth, ends)) if ends.len() == 2 => {
-                Form { kind: FormKind::Bar { from: ends[0], to: ends[1], width: self.width(body) }, depth }
+                Form::flat(FormKind::Bar { from: ends[0], to: ends[1], width: self.width(body) }, depth)
             }
-            Some((depth, ends)) if ends.len() < 3 => Form { kind: FormKind::Plate { points }, depth },
-            _ => Form { kind: FormKind::Plate { points }, depth: self.depth(places) },
+            Some((depth, ends)) if ends.len() < 3 => Form::flat(FormKind::Plate { points }, depth),
+            _ => Form::flat(FormKind::Plate { points }, self.depth(places)),
         }
     }
 
     fn area(&self, places: &[[f64; 3]], shade: f64) -> Form {
         let points = places.iter().map(|p| self.view.flat(*p)).collect();
-        Form { kind: FormKind::Area { points, shade }, depth: self.depth(places) }
+        Form::flat(FormKind::Area { points, shade }, self.depth(places))
+    }
+
+    /// A flat convex face of a solid.
+    fn flat_face(&self, corners: &[[f64; 3]], light: f64) -> Form {
+        let facet = Facet { corners: corners.iter().map(|p| self.seen(*p)).collect(), edges: vec![true; corners.len()] };
+        Form { facets: vec![facet], ..self.area(corners, light) }
+    }
+
+    /// A place in the axes of the picture: to the right, upwards, and towards the eye.
+    fn seen(&self, p: [f64; 3]) -> [f64; 3] {
+        let [x, y] = self.view.flat(p);
+        [x, y, self.view.depth(p)]
     }
 
     /// Bars from the middle of places to each of them.
@@ -204,7 +222,7 @@ impl Posed<'_> {
             for side in [-1.0, 1.0] {
                 if let Some(light) = self.light(normal.map(|x| side * x)) {
                     let corner = |s: f64, t: f64| std::array::from_fn(|i| center[i] + side * edges[axis][i] + s * u[i] + t * v[i]);
-                    faces.push(self.area(&[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], light));
+                    faces.push(self.flat_face(&[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)], light));
                 }
             }
         }
@@ -216,16 +234,34 @@ impl Posed<'_> {
         let ring = |center: [f64; 3]| self.ring(center, axis, radius);
         let (first, second) = (ring(a), ring(b));
         let front = if self.view.depth(axis) >= 0.0 { &second } else { &first };
-        let side: Vec<[f64; 3]> = first.iter().chain(&second).copied().collect();
         let light = self.light(axis).or_else(|| self.light(axis.map(|x| -x))).unwrap_or(1.0);
-        let mut forms = Vec::new();
-        if a != b {
-            let flat: Vec<[f64; 2]> = side.iter().map(|p| self.view.flat(*p)).collect();
-            let kind = FormKind::Area { points: crate::output::outlines::hull(&flat), shade: 0.75 };
-            forms.push(Form { kind, depth: self.depth(&side) - 1e-9 * radius });
-        }
-        forms.push(self.area(front, light));
+        let mut forms: Vec<Form> = self.side(a, [&first, &second]).into_iter().collect();
+        let coarse: Vec<[f64; 3]> = front.iter().step_by(COARSER).copied().collect();
+        forms.push(Form { kind: self.area(front, light).kind, ..self.flat_face(&coarse, light) });
         forms
+    }
+
+    /// The side of a round bar as far as it is seen, between circles about its ends, the first of which is at `end`; none if it is seen
+    /// from an end.
+    fn side(&self, end: [f64; 3], rings: [&[[f64; 3]]; 2]) -> Option<Form> {
+        let count = rings[0].len();
+        let faces_eye = |k: usize| {
+            let (p, q) = (rings[0][k % count], rings[0][(k + COARSER) % count]);
+            self.light(std::array::from_fn(|i| 0.5 * (p[i] + q[i]) - end[i])).is_some()
+        };
+        let steps = || (0..count).step_by(COARSER);
+        // what is seen is half of it, and in one piece
+        let begin = steps().find(|k| faces_eye(*k) && !faces_eye(k + count - COARSER))?;
+        let seen: Vec<usize> = steps().map(|k| begin + k).take_while(|k| faces_eye(*k)).collect();
+        let end = seen.last()? + COARSER;
+        let along = |ring: usize| (begin..=end).map(move |k| rings[ring][k % count]);
+        let outline: Vec<[f64; 3]> = along(0).chain(along(1).rev()).collect();
+        let strip = |k: &usize| {
+            let next = k + COARSER;
+            let corners = [(0, *k), (0, next), (1, next), (1, *k)].map(|(ring, k)| self.seen(rings[ring][k % count])).to_vec();
+            Facet { corners, edges: vec![true, next == end, true, *k == begin] }
+        };
+        (rings[0] != rings[1]).then(|| Form { facets: seen.iter().map(strip).collect(), ..self.area(&outline, SIDE) })
     }
 
     /// A wheel between two ends.
@@ -234,7 +270,7 @@ impl Posed<'_> {
         let flat = |ring: &Vec<[f64; 3]>| ring.iter().map(|p| self.view.flat(*p)).collect::<Vec<_>>();
         let face = flat(&rings[usize::from(self.view.depth(axis) >= 0.0)]);
         let outline = crate::output::outlines::hull(&rings.iter().flat_map(flat).collect::<Vec<_>>());
-        Form { kind: FormKind::Wheel { outline, face }, depth: self.depth(&rings.concat()) }
+        Form::flat(FormKind::Wheel { outline, face }, self.depth(&rings.concat()))
     }
 
     /// A circle in space.
@@ -281,6 +317,22 @@ mod tests {
         assert!(face.len() == CORNERS && tall(outline) > tall(face) + 0.1, "{} {}", tall(outline), tall(face));
         let hull = |n: usize| Shape::Hull { points: (0..n).map(|i| vec![i as f64, (i * i) as f64, 0.5]).collect() };
         assert_eq!((seen(hull(2), None).len(), seen(hull(3), None).len(), seen(hull(8), None).len()), (1, 3, 1));
+        // the side of a round bar is what its end leaves of it
+        let round = seen(Shape::Cylinder { from: vec![0.0; 3], to: vec![0.0, 0.0, 2.0], radius: 0.5 }, None);
+        let area = |form: &Form| {
+            let FormKind::Area { points, .. } = &form.kind else { panic!("{form:?}") };
+            let turn = |k: usize| points[k][0] * points[(k + 1) % points.len()][1] - points[(k + 1) % points.len()][0] * points[k][1];
+            0.5 * (0..points.len()).map(turn).sum::<f64>().abs()
+        };
+        let flat = |form: &Form| {
+            form.facets
+                .iter()
+                .map(|facet| Form::flat(FormKind::Area { points: facet.corners.iter().map(|p| [p[0], p[1]]).collect(), shade: 1.0 }, 0.0))
+                .map(|part| area(&part))
+                .sum::<f64>()
+        };
+        assert_eq!(round.len(), 2);
+        assert!(round.iter().all(|form| (flat(form) - area(form)).abs() < 5e-3 * area(form)), "{round:?}");
         // what is solid is seen by its faces, as a box is
         let corners = (0..8).map(|k| vec![f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)]).collect();
         assert_eq!(seen(Shape::Hull { points: corners }, None).len(), 3);

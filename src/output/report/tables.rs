@@ -2,7 +2,7 @@
 
 use super::axes::{ROUND_OFF, Seen};
 use super::rows::{Allowed, Curves, Kept};
-use crate::results::{Column, Results, Table, bends};
+use crate::results::{Column, Results, Table, bends, largest};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 
@@ -71,7 +71,9 @@ impl Thinned {
             places
         };
         let switches = places(&results.table.switches);
-        let bends = columns.iter().map(|column| (column.name.clone(), places(&bends(x, &column.values, &results.table.switches))));
+        let largest = largest(columns.iter().copied());
+        let shows = |column: &&Column| places(&bends(x, column, &largest, &results.table.switches));
+        let bends = columns.iter().map(|column| (column.name.clone(), shows(column)));
         let bends: BTreeMap<String, Vec<usize>> = bends.filter(|(_, places)| !places.is_empty()).collect();
         Self {
             independent: with_rows(&results.independent, &kept.rows, PLACES, &Seen::of(results, &results.independent)),

@@ -1,7 +1,7 @@
 //! Which powers a mechanism has.
 
 use crate::geometry::Space;
-use crate::mechanism::{EffortLaw, Mechanism, RowKind};
+use crate::mechanism::{EffortLaw, Mechanism, RowKind, StretchOf};
 use grashof_solvers::Power;
 
 /// Powers whose work is integrated: of drivers, of loads and motors, of dampers and friction, of end stops that give way.
@@ -19,8 +19,9 @@ pub(super) fn depends<G: Space<S = f64>>(m: &Mechanism<G>) -> Power {
         return Power::Reactions;
     }
     let stores = |law: &EffortLaw<G>| matches!(law, EffortLaw::Linear { damping, .. } if *damping == 0.0);
+    let by_time = |of: StretchOf| matches!(of, StretchOf::Function(function) if m.functions[function].by_time.is_some());
     let conserves = m.point_loads.iter().all(|pull| pull.potential.is_some())
         && m.efforts.iter().all(|effort| stores(&effort.law))
-        && m.stretches.iter().all(|stretch| stretch.moving.is_none());
+        && m.stretches.iter().all(|stretch| stretch.moving.is_none() && !by_time(stretch.of));
     if conserves { Power::Zero } else { Power::State }
 }
