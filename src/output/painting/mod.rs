@@ -58,7 +58,9 @@ fn in_space(forms: &[&Form], width: impl Fn(&Form) -> f64) -> Option<Vec<Painted
     if pieces.len() > division::MOST || !all().all(|x| x.is_finite()) {
         return None;
     }
-    let size = all().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let along = |axis: usize| pieces.iter().flat_map(move |piece| piece.facet.corners.iter().map(move |p| p[axis]));
+    let span = |axis: usize| along(axis).fold(f64::NEG_INFINITY, f64::max) - along(axis).fold(f64::INFINITY, f64::min);
+    let size = (0..3).map(span).fold(0.0, f64::max);
     let pieces = divided(pieces, size)?;
     let slack = SLACK * size;
     let regions = pieces.iter().map(|piece| Region::of(piece, forms[piece.form], &width, slack)).collect();
@@ -270,6 +272,16 @@ mod tests {
         let leaning = face(&[[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 0.0]]);
         assert_eq!(order(&[ball(0.8), leaning.clone()]), [(0, 0), (1, 0)]);
         assert_eq!(order(&[ball(0.95), leaning]), [(1, 0), (0, 0)]);
+    }
+
+    #[test]
+    fn what_is_small_and_far_from_the_origin_is_seen_alike() {
+        let at = |x: f64| {
+            let through = bar([x - 2.0, x + 0.5, x - 1.0], [x + 2.0, x + 0.5, x + 1.0]);
+            order(&[level([x - 1.0, x], [2.0, 1.0], x), through])
+        };
+        assert_eq!(at(1e5), at(0.0));
+        assert_eq!(at(0.0), [(1, 2), (0, 0), (1, 2)]);
     }
 
     #[test]
