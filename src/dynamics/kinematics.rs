@@ -283,7 +283,15 @@ impl<G: Space> Dynamics<'_, G> {
     pub fn held(&self, gauge: usize, order: usize) -> Option<G::S> {
         let m = self.mechanism;
         if let Some(row) = m.holding(gauge) {
-            return Some(if order == 0 { row.target(&self.work.held) } else { G::S::default() });
+            return Some(match row.kind {
+                _ if order > 0 => G::S::default(),
+                // the zero of e: exact for x − c
+                RowKind::Function(f) => {
+                    let (x, e) = (self.work.readings[gauge].x, self.mechanism.functions[f].value);
+                    x - self.work.functions[e] / self.work.functions[e + 1]
+                }
+                _ => row.target(&self.work.held),
+            });
         }
         let motions = &self.work.motions;
         if let Some(drive) = m.drives.iter().find(|drive| drive.gauge == gauge && motions[drive.output + 1].value() == 0.0) {

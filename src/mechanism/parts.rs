@@ -253,10 +253,16 @@ impl<G: Space> Mechanism<G> {
         self.rows.iter().enumerate().filter_map(move |(i, row)| Some((contact(row)?, i)))
     }
 
-    /// The row that holds a gauge by itself, on a rigid stop or sticking.
+    /// The row that holds a gauge by itself, on a rigid stop or sticking; or by a function of it alone, as an event whose impact has come to
+    /// rest does.
     #[must_use]
     pub fn holding(&self, gauge: usize) -> Option<&Row<G>> {
-        self.rows.iter().rev().take_while(|row| row.holds()).find(|row| row.kind == RowKind::Gauge(gauge))
+        let alone = |row: &Row<G>| match row.kind {
+            RowKind::Gauge(held) => held == gauge,
+            RowKind::Function(f) => self.functions[f].gauges == [gauge] && self.functions[f].by_time.is_none(),
+            RowKind::Driver { .. } | RowKind::Ratio { .. } => false,
+        };
+        self.rows.iter().rev().take_while(|row| row.holds()).find(|row| alone(row))
     }
 
     /// The first of the gauges that rows of clutches hold to one rate with `gauge`, and whether a row holds one of them at rest; but for the
