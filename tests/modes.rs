@@ -8,6 +8,7 @@ mod meeting;
 mod order;
 mod pictures;
 mod round_off;
+mod sides;
 
 use crate::common;
 use crate::common::{assembled, close, slope, study};

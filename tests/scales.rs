@@ -206,6 +206,39 @@ studies:
     }
 }
 
+/// A rod without mass between two balls turns about itself, and nothing resists that; between a ball and a universal joint it does not turn.
+#[test]
+fn a_rod_without_mass_that_turns_about_itself_is_refused() {
+    let model = |end: &str, keys: &str| {
+        format!(
+            "grashof: 1
+name: rod without mass
+space: spatial
+gravity: [0, 0, -9.81 m/s^2]
+ground: {{ C: [0.2 m, 0.3 m, 0.05 m] }}
+bodies:
+  a: {{ bar: {{ length: 0.1 m, mass: 0.4 kg, width: 1 cm, height: 1 cm }} }}
+  r: {{ bar: {{ length: 0.3 m, mass: 0 kg }} }}
+  c: {{ bar: {{ length: 0.3 m, mass: 0.6 kg, width: 1 cm, height: 1 cm }} }}
+joints:
+  A: {{ revolute: [ground, a.start], axis: [0, 0, 1] }}
+  B: {{ {end} }}
+  D: {{ spherical: [r.end, c.end] }}
+  C: {{ revolute: [ground.C, c.start], axis: [1, 0.2, 0.1], to: [0, 0, 1] }}
+start: {{ A.angle: 0.3 rad, A.omega: 3 rad/s, C.angle: ~-1 rad }}
+studies: {{ s: {{ dynamics: {{ until: 50 ms, every: 5 ms{keys} }} }} }}
+"
+        )
+    };
+    for keys in ["", ", coordinates: cartesian", ", integrator: radau5"] {
+        let found = run_text(&model("spherical: [a.end, r.start]", keys), &["--no-plots"]);
+        let words = "body `r` can turn about its own axis and has no inertia about it";
+        assert!(found.code == 2 && found.stderr.contains(words), "{keys}: {} {}", found.code, found.stderr);
+        let held = run_text(&model("universal: [a.end, r.start], axes: [[0, 0, 1], [0, 1, 0]]", keys), &["--no-plots"]);
+        assert_eq!(held.code, 0, "{keys}: {}", held.stderr);
+    }
+}
+
 /// A thin bar whose turn is held is not blamed for a link that is too light for the digits of what hangs on it; a hinge along a thin bar is
 /// found as a ball joint is, and among many bars the one that turns is named.
 #[test]

@@ -9,6 +9,7 @@
 //!
 //! An evaluator is cheap to make, holds no state of its own between states, and allocates nothing once it is made.
 
+mod acting;
 mod energy;
 mod evaluator;
 mod external;

@@ -71,6 +71,14 @@ pub struct Switch {
     pub text: String,
 }
 
+impl Switch {
+    /// In words: as a switch by its text, or, where the text is in words that name something, as these.
+    #[must_use]
+    pub fn told(&self) -> String {
+        if self.text.contains('`') { format!("the {}", self.text) } else { format!("the switch `{}`", self.text) }
+    }
+}
+
 fn sign(x: f64) -> i32 {
     // not a number counts as unequal and positive, so that a mode exists whatever the value
     if x < 0.0 { -1 } else { i32::from(x != 0.0) }

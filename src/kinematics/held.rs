@@ -59,8 +59,8 @@ pub struct Held {
     pub unbalanced: DVector<f64>,
     /// Sum of the sizes of what adds up to it (n).
     pub forces: DVector<f64>,
-    /// What all weights do over the size of the mechanism, J: of a mechanism in balance little of it is left in `forces`.
-    pub weights: f64,
+    /// What weights, loads and efforts do on whole ways, J: of a mechanism in balance little of it is left in `forces`.
+    pub acting: f64,
     /// λ (rows).
     pub lambda: DVector<f64>,
     /// Largest |Φ|, m or rad.
@@ -125,7 +125,7 @@ impl Held {
             z_z: matrix(nz, nz, &tangent.z_z),
             unbalanced: -r.select_rows(&partition.independent),
             forces: sizes.transpose() * force.abs(),
-            weights: mechanism.weights(),
+            acting: dynamics.acting(mechanism.size()),
             residual: w.phi.iter().fold(0.0, |m, phi| m.max(phi.abs())),
             lambda,
             partition,

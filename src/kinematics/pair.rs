@@ -4,8 +4,9 @@ use super::pencil::Pencil;
 use super::saddle::Saddle;
 use grashof_solvers::{Block, Sparsity};
 
-/// A first shift, as part of the largest stiffness: far enough below zero for the digits, near enough to tell low eigenvalues apart.
-const SHIFT: f64 = 1e-8;
+/// A first shift, as part of the largest stiffness: far enough below zero for the digits, near enough to tell low eigenvalues apart. No
+/// power of ten, since the largest stiffness may itself be an eigenvalue, and negative.
+const SHIFT: f64 = 3e-8;
 
 /// The matrices of a pencil on one pattern.
 pub(crate) struct Pair<'a> {

@@ -11,6 +11,9 @@ const RANK_TOLERANCE: f64 = 1e-8;
 /// Part of the largest pivot below which another column is taken, though it comes earlier in the file.
 const POOR: f64 = 1e-3;
 
+/// Part of the metric below which a motion moves no mass.
+pub(crate) const MASSLESS: f64 = 1e-13;
+
 /// A division of velocities, v = (v_d, v_i), such that G_d has full column rank and as many columns as G has independent rows.
 #[derive(Clone, Debug)]
 pub struct Partition {
@@ -135,20 +138,29 @@ pub fn preferred<G: Space>(mechanism: &Mechanism<G>) -> Vec<usize> {
     mechanism.starts.iter().filter(|s| !s.guess).filter_map(|s| of(s.asked)).collect()
 }
 
-/// Refuses a mass matrix (n × n) that is singular on the independent velocities named `names`.
+/// Refuses a mass matrix PᵀMP (n × n) that is singular on the independent velocities named `names`: beside that of D, the `metric` (nv). A
+/// motion that passes by all masses has round-off alone in it, which is not small beside itself.
 ///
 /// # Errors
 /// Which motion has no mass.
-pub(crate) fn with_mass(mass: &DMatrix<f64>, names: &[String], place: &str) -> Result<(), Failure> {
-    let size = mass.diagonal().amax();
-    let pivots = mass.clone().cholesky().map(|c| c.l().diagonal().map(|x| x * x));
-    let worst = |d: &DVector<f64>| d.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, x)| (i, *x));
-    let massless = match &pivots {
-        Some(pivots) => worst(pivots).filter(|(_, x)| *x <= 1e-13 * size),
-        None => worst(&mass.diagonal()),
-    };
-    let Some((i, _)) = massless else { return Ok(()) };
-    Err(without_mass(&names[i], place))
+pub(crate) fn with_mass(mass: &DMatrix<f64>, partition: &Partition, metric: &[f64], names: &[String], place: &str) -> Result<(), Failure> {
+    let of_metric = DMatrix::from_fn(partition.p.nrows(), partition.p.ncols(), |i, j| metric[i] * partition.p[(i, j)]);
+    let beside = partition.p.transpose() * of_metric;
+    if names.is_empty() || (mass - &beside * MASSLESS).cholesky().is_some() {
+        return Ok(());
+    }
+    let least = least_mass(mass, &beside).unwrap_or_else(|| mass.diagonal().imin());
+    Err(without_mass(&names[least], place))
+}
+
+/// The coordinate that moves most in the motion with the least eigenvalue of M x = μ D x (n × n each).
+fn least_mass(mass: &DMatrix<f64>, metric: &DMatrix<f64>) -> Option<usize> {
+    let l = metric.clone().cholesky()?.unpack();
+    let half = l.solve_lower_triangular(mass)?;
+    let standard = l.solve_lower_triangular(&half.transpose())?;
+    let eigen = standard.iter().all(|x| x.is_finite()).then(|| standard.symmetric_eigen())?;
+    let x = l.tr_solve_lower_triangular(&eigen.eigenvectors.column(eigen.eigenvalues.imin()))?;
+    Some(DVector::from_fn(x.len(), |i, _| x[i].abs() * metric[(i, i)].sqrt()).imax())
 }
 
 /// That the motion of a coordinate of this name moves no mass.

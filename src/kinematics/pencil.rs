@@ -198,7 +198,8 @@ impl HeldSparse {
         held.block.lines().zip(&lambda).for_each(|(line, l)| line.entries().for_each(|(j, g)| grain[j] += (g * l).abs()));
         grain.iter_mut().zip(&units).for_each(|(grain, unit)| *grain /= unit);
         let stiff = stiffness.lines().zip(&units).map(|(line, u)| u * line.entries().map(|(j, k)| k.abs() * units[j]).sum::<f64>());
-        let work = held.force.iter().zip(&units).map(|(f, u)| f.abs() * u).sum::<f64>() + stiff.sum::<f64>() + mechanism.weights();
+        let work =
+            held.force.iter().zip(&units).map(|(f, u)| f.abs() * u).sum::<f64>() + stiff.sum::<f64>() + dynamics.acting(mechanism.size());
         let mut places = vec![0; candidates.len()];
         order.iter().enumerate().for_each(|(place, &i)| places[i] = rows + place);
         let place = |i: usize| places[i];

@@ -14,7 +14,7 @@ use nalgebra::Matrix3;
 /// ε: part of an inertia that is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A body that turns and has no inertia about one of its axes, and how much it has across it.
+/// A body that turns and has no inertia about one of its axes, and how much it has across it: 0 if it has none about any.
 struct Thin<'m, G: Space> {
     node: &'m TreeNode<G>,
     across: f64,
@@ -26,9 +26,13 @@ pub(crate) fn spinning<G: Space<S = f64>>(mechanism: &Mechanism<G>, start: &Asse
         return None;
     }
     let turns: Vec<bool> = units(mechanism).into_iter().map(|unit| unit == 0).collect();
-    let thin = thin_bodies(mechanism, &turns);
+    let mut thin = thin_bodies(mechanism, &turns);
     if thin.is_empty() {
         return None;
+    }
+    // a body without any inertia turns as one with what counts as little
+    for body in thin.iter_mut().filter(|body| body.across == 0.0) {
+        body.across = body.node.columns.clone().filter(|k| turns[*k]).map(|k| start.metric[k]).fold(0.0, f64::max);
     }
     let mut dynamics = Dynamics::new(mechanism);
     dynamics.terms(0.0, &start.q, &start.v, &start.modes);
@@ -89,6 +93,6 @@ impl<'m, G: Space<S = f64>> Thin<'m, G> {
         let about = |axis: usize| G::apply(inertia, G::spin([0, 1, 2].map(|k| if k == axis { 1.0 } else { 0.0 })));
         let tensor = Matrix3::from_fn(|i, j| G::spin_component(about(i), j));
         let found = tensor.symmetric_eigenvalues();
-        (found.max() > 0.0 && found.min() <= ROUND_OFF * found.max()).then(|| Self { node, across: found.max() })
+        (found.min() <= ROUND_OFF * found.max()).then(|| Self { node, across: found.max() })
     }
 }

@@ -16,13 +16,6 @@ impl<G: Space<S = f64>> Mechanism<G> {
         self.length(&lines)
     }
 
-    /// Work of the weights of all bodies over the size of the mechanism, J, whatever of it cancels.
-    #[must_use]
-    pub fn weights(&self) -> f64 {
-        let mass: f64 = self.bodies.iter().map(|body| body.mass.mass).sum();
-        mass * G::dot(self.gravity, self.gravity).sqrt() * self.size()
-    }
-
     /// Characteristic length of starts, m: as [`Mechanism::size`], of bodies and joints alone, since forces have no part in a start.
     #[must_use]
     pub fn start_size(&self) -> f64 {

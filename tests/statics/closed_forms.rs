@@ -177,3 +177,61 @@ start: { X.position: 0 m, Y.position: 2 m }",
     near(list(&outcome, "equilibria.Y.position")[0], 0.0, 1e-11);
     all_are(&sorted(&outcome, "X.position"), &[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)], 1e-10);
 }
+
+/// A mass that a spring holds to one side and pushes away to the other, relaxed in its kink: it is stable where both sides hold, whichever of
+/// them the law counts the kink to, for one mass and for more than a hundred.
+#[test]
+fn what_one_side_of_a_kink_pushes_away_is_not_stable() {
+    let text = |left: f64, right: f64, bodies: usize| {
+        let each = |of: &dyn Fn(usize) -> String| (0..bodies).map(of).collect::<Vec<_>>().join(", ");
+        format!(
+            "grashof: 1
+name: sides
+space: planar
+gravity: none
+tables: {{ kink: {{ points: [[-1 m, {} N], [0 m, 0 N], [1 m, {right} N]], beyond: linear }} }}
+bodies: {{ {} }}
+joints: {{ {} }}
+springs: {{ s: {{ joint: J0, force: kink }}, {} }}
+studies: {{ s: {{ statics: {{ from: start }} }} }}
+",
+            -left,
+            each(&|i| format!("a{i}: {{ mass: 1 kg }}")),
+            each(&|i| format!("J{i}: {{ slider: [ground, a{i}.origin], axis: [1, 0] }}")),
+            each(&|i| format!("t{i}: {{ joint: J{i}, stiffness: {} N/m }}", if i == 0 { 1.0 } else { 7.0 }))
+        )
+    };
+    for bodies in [1, 3, 120] {
+        for (left, right, stable) in
+            [(100.0, 10.0, true), (100.0, -10.0, false), (-100.0, 10.0, false), (-100.0, -10.0, false), (10.0, 100.0, true)]
+        {
+            let outcome = crate::common::study(&text(left, right, bodies), "s", grashof::mechanism::Coordinates::Joint);
+            let told = &outcome.findings.iter().find(|f| f.code == "equilibrium").expect("a verdict").message;
+            let right = if stable { "stable" } else { "unstable, it falls along `J0.position`" };
+            assert!(
+                outcome.results[0] == f64::from(u8::from(stable)) && told.contains(&format!(": {right}")),
+                "{left}, {right}, {bodies}: {told}"
+            );
+        }
+    }
+}
+
+/// A weight slides down onto a spring that pushes away on its other side: it comes to rest in the kink, falls through it, and rests on the
+/// stop of a spring below; pushed to the side that holds it would stay in the kink for ever.
+#[test]
+fn what_comes_to_rest_in_a_kink_is_pushed_to_the_side_that_falls() {
+    let text = "grashof: 1
+name: through a kink
+space: planar
+gravity: none
+tables: { law: { points: [[-2 m, -50 N], [-1 m, 50 N], [0 m, 0 N], [1 m, 10 N]], beyond: linear } }
+bodies: { a: { mass: 1 kg } }
+joints: { J: { slider: [ground, a.origin], axis: [1, 0] } }
+springs: { s: { joint: J, force: law } }
+start: { J.position: 0.3 m }
+studies: { s: { statics: { from: start }, scalars: { x: last(J.position) } } }
+";
+    let outcome = crate::common::study(text, "s", grashof::mechanism::Coordinates::Joint);
+    near(outcome.scalars[0], -1.5, 1e-9);
+    assert_eq!(outcome.results[0], 1.0, "{:?}", outcome.findings);
+}

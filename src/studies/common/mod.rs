@@ -21,6 +21,7 @@ mod rows;
 pub(crate) mod scene;
 mod selection;
 pub mod settings;
+pub(crate) mod sides;
 pub(crate) mod stops;
 pub mod switching;
 pub mod watched;

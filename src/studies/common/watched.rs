@@ -1,7 +1,7 @@
 //! The expressions that a study watches: columns, what functionals are taken of, what only figures show.
 
 use super::clock::{Clock, Variable};
-use crate::expression::Id;
+use crate::expression::{Id, Switch};
 use crate::model::{Functional, FunctionalKind, Model, Plot, Quantity, Shown, ShownWhat, Study};
 use crate::numerics::extremum::Extremes;
 use crate::numerics::resolve::{Open, Resolution, Resolved};
@@ -174,11 +174,8 @@ pub(crate) fn unresolved(
         })
     });
     let switches = switches.iter().map(|&(switch, at)| {
-        let text = model.pool.switches().get(switch).map_or("a guide's side", |s| s.text.as_str());
-        finding(format!(
-            "the switch `{text}` changes too often near {} to be followed: some of its changes may be missing",
-            variable.at(at)
-        ))
+        let what = model.pool.switches().get(switch).map_or_else(|| "the side of a guide".into(), Switch::told);
+        finding(format!("{what} changes too often near {} to be followed: some of its changes may be missing", variable.at(at)))
     });
     columns.chain(switches).collect()
 }

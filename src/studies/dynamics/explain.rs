@@ -238,7 +238,7 @@ where
         _ => None,
     };
     match switch.and_then(|s| model.pool.switches().get(s as usize)) {
-        Some(switch) => format!("the switch `{}`", switch.text),
+        Some(switch) => switch.told(),
         None => "a switch".into(),
     }
 }

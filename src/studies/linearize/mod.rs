@@ -30,6 +30,7 @@ use crate::numerics::eigenvalues::eigenvalues;
 use crate::numerics::slope::slope;
 use crate::results::{Certificate, Failure, Finding, LinearSystem, List, Rows, Scene};
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::sides::{self, Difference};
 use crate::studies::common::stops::taken_as_free;
 use nalgebra::{Complex, DMatrix, DVector};
 use probe::{Answer, Probe, Whole};
@@ -79,6 +80,7 @@ where
         )
     })?;
     findings.extend(bench.other_poles(&at, &reduced, &poles));
+    findings.extend(bench.one_sided(&at, &base, &reduced));
     let mut poles: Vec<(f64, f64)> = poles.iter().map(|p| (p.re, p.im)).collect();
     poles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let list = |name: &str, values: Vec<f64>| List { name: name.into(), unit: "1/s".into(), values, ..List::default() };
@@ -174,7 +176,8 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         }
         let partition = linear.partition(&preferred(m));
         let own: Vec<String> = partition.independent.iter().map(|&i| names.coordinates[i].clone()).collect();
-        with_mass(&(partition.p.transpose() * &linear.mass * &partition.p), &own, &self.case.study.place)?;
+        let mass = partition.p.transpose() * &linear.mass * &partition.p;
+        with_mass(&mass, &partition, &self.start.metric, &own, &self.case.study.place)?;
         let reduced = linear.reduce(&partition.independent).map_err(|_| undetermined())?;
         let answer = probe.answer(at, &reduced.partition.independent, false).ok_or_else(undetermined)?;
         Ok((answer, reduced))
@@ -192,6 +195,38 @@ impl<G: Space<S = f64>> Bench<'_, G> {
         let linear = Linear::new(m, &mut Linearizer::new(m), &point, &self.start.metric).ok()?;
         let others = eigenvalues(&linear.reduce(&reduced.partition.independent).ok()?.a)?;
         beside.other_eigenvalues([poles, &others], "1/s", |p| p * p, &self.case.study.place)
+    }
+
+    /// Forces (nv) in a state with modes of its switches.
+    fn forces(&self, at: &Whole, modes: &[i32]) -> DVector<f64> {
+        let mut dynamics = Dynamics::new(self.mechanism);
+        dynamics.work.z.copy_from_slice(&at.z);
+        dynamics.terms(0.0, &at.q, &at.v, modes);
+        DVector::from_column_slice(&dynamics.work.force)
+    }
+
+    /// That the state is in a kink of a law, so that A is that of one side.
+    fn one_sided(&self, at: &Whole, base: &Answer, reduced: &Reduced) -> Option<Finding> {
+        let (m, p) = (self.mechanism, &reduced.partition.p);
+        let unit = m.units(m.size());
+        let ways = DVector::from_iterator(p.ncols(), reduced.partition.independent.iter().map(|&i| unit[i]));
+        let motions = sides::weights(ways.len()).map(|y| (p * DVector::from_vec(y).component_mul(&ways)).as_slice().to_vec());
+        let by_ways = |x: &DMatrix<f64>| DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| ways[i] * x[(i, j)] * ways[j]);
+        sides::beside(m, [&at.q, &at.v, &at.z], &at.modes, &motions).iter().find_map(|modes| {
+            let point = Point { t: 0.0, q: &at.q, v: &at.v, z: &at.z, a: &base.a, lambda: &base.lambda, modes };
+            let linear = Linear::new(m, &mut Linearizer::new(m), &point, &self.start.metric).ok()?;
+            let there = linear.reduce(&reduced.partition.independent).ok()?;
+            let slopes = [[&reduced.stiffness, &there.stiffness], [&reduced.damping, &there.damping]];
+            let slopes = slopes.map(|both| sides::change(both.map(by_ways).each_ref()));
+            let rates =
+                (2 * ways.len()..reduced.a.nrows()).map(|i| sides::change([&reduced.a, &there.a].map(|a| a.rows(i, 1).into()).each_ref()));
+            let slope = slopes.into_iter().chain(rates).fold(0.0, f64::max);
+            let [here, there] = [&at.modes, modes].map(|modes| self.forces(at, modes));
+            let size = [&here, &there].map(|f| f.iter().zip(&unit).map(|(f, u)| f.abs() * u).sum::<f64>()).into_iter().fold(0.0, f64::max);
+            let jump = (p.transpose() * (here - there)).component_mul(&ways).amax();
+            let force = if jump > 0.0 { jump / size } else { 0.0 };
+            sides::one_sided(self.case.model, [&at.modes, modes], Difference { force, slope }, &self.case.study.place)
+        })
     }
 
     /// A, B, C and D with their names, and that differences have not found them.

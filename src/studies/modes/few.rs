@@ -5,7 +5,7 @@ use super::eigen::{self, Eigen};
 use super::free::Free;
 use super::report::{BALANCED, DRAWN, Report, Undamped};
 use super::rest::held_start;
-use super::round_off::{self, ROUND_OFF, of_work};
+use super::round_off::{self, OF_WORK, ROUND_OFF, of_work};
 use super::{jacobi, lanczos, picture, power};
 use crate::dynamics::{Differentiable, Linearizer};
 use crate::geometry::Space;
@@ -23,6 +23,7 @@ use crate::numerics::eigenvalues::eigenvalues;
 use crate::results::{Failure, Finding};
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::sides::{self, Difference};
 use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium};
 use nalgebra::{DMatrix, DVector};
@@ -51,17 +52,19 @@ where
     let all = coordinates(model, &mechanism);
     let own: Vec<Coordinate> = held.partition.independent.iter().map(|&i| all[i].clone()).collect();
     let names: Vec<String> = own.iter().map(|c| c.name.clone()).collect();
-    with_mass(&held.mass, &names, &study.place)?;
+    with_mass(&held.mass, &held.partition, &start.metric, &names, &study.place)?;
 
     let mut report = Report { study, own: &own, lists: Vec::new(), shapes: Vec::new(), findings };
     let ways = DVector::from_iterator(own.len(), own.iter().map(|c| if c.turns { 1.0 } else { start.size }));
     // an equilibrium that was searched for has been judged there
     if !asked.at_equilibrium {
         // what a way of this part of a radian or of the size would change, and this part of what adds up, is round-off
-        let noise = (&held.round_off * &ways + &held.forces) * BALANCED;
+        let rounded = ways.map(|way| OF_WORK * held.acting / way);
+        let noise = (&held.round_off * &ways + &held.forces) * BALANCED + rounded;
         report.balance(held.unbalanced.iter().zip(noise.iter().copied()));
     }
     report.findings.extend(other_eigenvalues(case, &mechanism, &start, pose, asked.damped, &held));
+    report.findings.extend(one_sided(case, &mechanism, &start, pose, asked.damped, (&held, &ways)));
     let wanted = asked.lowest.unwrap_or(own.len()).min(own.len());
     let potential = held.circulation() <= POTENTIAL;
     let mut drawn: Vec<DVector<f64>> = Vec::new();
@@ -71,6 +74,7 @@ where
         && !asked.damped
     {
         frequencies = report.frequencies(&found);
+        report.lowest(frequencies.len(), own.len());
         drawn = found.into_iter().map(|mode| mode.shape).collect();
     }
     if !potential || asked.damped {
@@ -79,7 +83,8 @@ where
         if !potential {
             report.circulates(held.circulation());
         }
-        frequencies = report.damped(&found, if asked.lowest.is_some() { wanted } else { found.len() });
+        frequencies = report.damped(&found, asked.lowest.unwrap_or(found.len()));
+        report.lowest(frequencies.len(), found.len());
         drawn = found.iter().take(frequencies.len()).map(|d: &Damped| d.shape.map(|x| x.re)).collect();
     }
     let close = |phi: &[f64]| held.partition.follow(&DMatrix::from_column_slice(phi.len(), 1, phi)).as_slice().to_vec();
@@ -109,6 +114,30 @@ fn other_eigenvalues<G: Space<S = f64>>(
     }
     let values = |held: &Held| eigenvalues(&held.mass.clone().cholesky()?.solve(&held.stiffness));
     other.other_eigenvalues([&values(held)?, &values(&there)?], "1/s^2", |x| x, &case.study.place)
+}
+
+/// That the pose is in a kink of a law, so that the modes are those of one side; `ways` (n) are 1 rad or the size of the mechanism.
+fn one_sided<G: Space<S = f64>>(
+    case: Case<'_>,
+    m: &Differentiable<G>,
+    start: &Assembled,
+    pose: Pose<'_>,
+    damped: bool,
+    (held, ways): (&Held, &DVector<f64>),
+) -> Option<Finding> {
+    let motions = sides::weights(ways.len()).map(|y| (&held.partition.p * DVector::from_vec(y).component_mul(ways)).as_slice().to_vec());
+    let by_ways = |x: &DMatrix<f64>| DMatrix::from_fn(x.nrows(), x.ncols(), |i, j| ways[i] * x[(i, j)] * ways[j]);
+    let rest = vec![0.0; m.nv];
+    let others = sides::beside(m, [pose.q, &rest, pose.z], pose.modes, &motions);
+    others.iter().find_map(|modes| {
+        let there = Held::new(m, &mut Linearizer::new(m), Pose { modes, ..pose }, &start.metric, &held.partition.independent).ok()?;
+        let stiffness = sides::change([&held.stiffness, &there.stiffness].map(by_ways).each_ref());
+        let damping = if damped { sides::change([&held.damping, &there.damping].map(by_ways).each_ref()) } else { 0.0 };
+        let jump = (&held.unbalanced - &there.unbalanced).component_mul(ways).amax();
+        let size = f64::max(held.forces.dot(ways), there.forces.dot(ways));
+        let force = if jump > 0.0 { jump / size } else { 0.0 };
+        sides::one_sided(case.model, [pose.modes, modes], Difference { force, slope: stiffness.max(damping) }, &case.study.place)
+    })
 }
 
 /// Modes by all methods; the first one's. `ways` are 1 rad or the size of the mechanism.
@@ -160,8 +189,7 @@ fn undamped(
     let mode = |(&value, x): (&f64, nalgebra::DVectorView<'_, f64>)| {
         let sizes = x.abs();
         let made_of = sizes.dot(&(&held.round_off * &sizes)) + held.forces.component_div(ways).dot(&sizes.component_mul(&sizes));
-        let noise =
-            others + ROUND_OFF * made_of + of_work(held.forces.dot(ways) + held.weights, x.iter().zip(ways).map(|(x, way)| x / way));
+        let noise = others + ROUND_OFF * made_of + of_work(held.forces.dot(ways) + held.acting, x.iter().zip(ways).map(|(x, way)| x / way));
         Undamped { value, noise, shape: x.into_owned() }
     };
     Some(found.values.iter().zip(found.vectors.column_iter()).map(mode).collect())

@@ -94,7 +94,7 @@ impl Still {
             }
             columns[i] = column;
         }
-        let work = OF_WORK * (held.forces.dot(ways) + held.weights);
+        let work = OF_WORK * (held.forces.dot(ways) + held.acting);
         let of_work = DVector::from_fn(n, |i, _| work * (columns[i] / ways[i]).powi(2));
         Self { matrix, made_of, columns, of_work }
     }

@@ -14,27 +14,28 @@ use crate::kinematics::crossing::change_point;
 use crate::kinematics::held::Pose;
 use crate::kinematics::lowest::{self, Lowest};
 use crate::kinematics::lowest_damped::{DampedMotion, LowestDamped, growing, lowest_damped};
-use crate::kinematics::partition::without_mass;
+use crate::kinematics::partition::{MASSLESS, without_mass};
 use crate::kinematics::pencil::{HeldSparse, POTENTIAL, Pencil};
 use crate::kinematics::undefined::not_finite;
 use crate::model::{Eigensolver, Model, Modes};
 use crate::results::{Failure, Finding};
 use crate::studies::common::case::Case;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::sides::{self, Difference};
 use crate::studies::common::stops::taken_as_free;
 use crate::studies::statics::{Still, equilibrium_of_many};
 use grashof_solvers::{Block, Line};
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// Bodies from which on the lowest modes alone are found, by sparse matrices, unless the study says otherwise; and how many.
 const MANY: usize = 100;
 const LOWEST: usize = 12;
-/// Part of the metric below which a motion moves no mass.
-const MASSLESS: f64 = 1e-13;
 /// |μ| of a free motion, as part of the largest, up to which it is 0: a double one, and so known to half of the digits.
 const RIGID: f64 = 1e-7;
 /// How far another pose that the constraints cannot tell from one may be off, rad or sizes, where that one is not called nearly singular.
 const LOOSE: f64 = 1e-12;
+/// The square of the round-off of a vector.
+const SQUARED: f64 = 1e-14;
 /// Re μ below this part of |μ| is round-off.
 const UNDAMPED: f64 = 1e-10;
 
@@ -99,12 +100,14 @@ where
     report.list("eigenvalues_lanczos", "1/s^2", values.clone());
     let others = round_off::by_others(&values);
     let modes: Vec<Undamped> = values.iter().zip(&mut vectors).map(|(&value, x)| mode(&held, start.size, value, x, others)).collect();
+    report.findings.extend(one_sided(case, &mechanism, (pose, &start.metric), asked.damped, (&held, &modes, &vectors)));
     let (frequencies, drawn) = if asked.damped {
         let LowestDamped { mut motions, omega, steps: more } = damped_of(pencil, wanted, &modes, stop).ok_or_else(not_found)?;
         steps += more;
         let free: Vec<&Vec<f64>> = modes.iter().zip(&vectors).filter(|(mode, _)| mode.is_free()).map(|(_, x)| x).collect();
         let count = growing(pencil);
-        rounded(&mut motions, omega, &free);
+        rounded(pencil, &mut motions, omega, &free);
+        motions.truncate(wanted);
         if count == Some(0) {
             // where nothing grows, growth is round-off
             motions.iter_mut().for_each(|motion| motion.value.re = motion.value.re.min(0.0));
@@ -112,16 +115,15 @@ where
         let damped = |motion: &DampedMotion| Damped { value: motion.value, shape: by_largest(&shape(independent, &motion.vector)) };
         let found: Vec<Damped> = motions.iter().map(damped).collect();
         let frequencies = report.damped(&found, wanted);
+        report.lowest_of(&found, own.len());
         growth(&mut report, count, found.iter().filter(|mode| mode.grows()).count());
         (frequencies, motions.iter().map(|motion| motion.vector.iter().map(|x| x.re).collect()).collect())
     } else {
-        (report.frequencies(&modes), vectors)
+        let frequencies = report.frequencies(&modes);
+        report.lowest(frequencies.len(), own.len());
+        (frequencies, vectors)
     };
     report.list("steps_lanczos", "", vec![steps as f64]);
-    if own.len() > frequencies.len() {
-        let message = format!("these are the {} lowest of {} modes; `lowest` asks for more", frequencies.len(), own.len());
-        report.finding("lowest-modes", message);
-    }
     let mut closing = pencil.closing();
     let mut close = |phi: &[f64]| closing.as_mut().map_or_else(|| vec![0.0; mechanism.nv], |kkt| Pencil::closed(kkt, phi));
     let scenes = drawn
@@ -165,6 +167,41 @@ fn other_eigenvalues(
     other.other_eigenvalues([&here, &there], "1/s^2", |x| x, place)
 }
 
+/// That the pose is in a kink of a law, so that the modes, with their vectors (nv each), are those of one side: to first order.
+fn one_sided<G: Space<S = f64>>(
+    case: Case<'_>,
+    m: &Differentiable<G>,
+    (pose, metric): (Pose<'_>, &[f64]),
+    damped: bool,
+    (held, modes, vectors): (&HeldSparse, &[Undamped], &[Vec<f64>]),
+) -> Option<Finding> {
+    let mut closing = held.pencil.closing()?;
+    let unit = m.units(m.size());
+    let motions = sides::weights(m.nv).map(|weights| {
+        let force: Vec<f64> = weights.iter().zip(unit.iter().zip(metric)).map(|(y, (unit, d))| y * unit * d).collect();
+        let (zeros, mut x) = (vec![0.0; held.pencil.row_scale.len()], vec![0.0; m.nv]);
+        closing.solve(&force, &zeros, &mut x, &mut zeros.clone());
+        x
+    });
+    let along = |matrix: &Block, x: &[f64]| matrix.lines().zip(x).map(|(line, y)| y * along(&line, x)).sum::<f64>();
+    let part = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change.abs() / size };
+    sides::beside(m, [pose.q, &vec![0.0; m.nv], pose.z], pose.modes, &motions).iter().find_map(|other| {
+        let there = HeldSparse::new(case.model, m, Pose { modes: other, ..pose }, metric).ok().filter(|there| there.ways == held.ways)?;
+        let slopes = modes.iter().zip(vectors).map(|(mode, x)| {
+            let change = |matrix: fn(&Pencil) -> &Block| along(matrix(&there.pencil), x) - along(matrix(&held.pencil), x);
+            let [stiffer, resisted] = [change(|p| &p.stiffness), if damped { change(|p| &p.damping) } else { 0.0 }];
+            let beside = mode.value.abs().max((mode.value + stiffer).abs()).max(mode.noise);
+            let damps = f64::max(along(&held.pencil.damping, x).abs(), along(&there.pencil.damping, x).abs());
+            part(stiffer, beside).max(part(resisted, damps.max(beside.sqrt())))
+        });
+        let slope = slopes.fold(0.0, f64::max);
+        let jump = held.unbalanced.iter().zip(&there.unbalanced).zip(&held.independent);
+        let jump = jump.map(|((here, there), (c, _))| (here - there).abs() * if c.turns { 1.0 } else { m.size() }).fold(0.0, f64::max);
+        let differ = Difference { force: part(jump, held.work.max(there.work)), slope };
+        sides::one_sided(case.model, [pose.modes, other], differ, &case.study.place)
+    })
+}
+
 /// A row of a matrix times a vector.
 fn along(line: &Line<'_, f64>, x: &[f64]) -> f64 {
     line.entries().map(|(j, k)| k * x[j]).sum()
@@ -193,17 +230,33 @@ fn damped_of(pencil: &Pencil, wanted: usize, modes: &[Undamped], stop: &dyn Fn()
     lowest_damped(pencil, wanted, held.map(|mode| mode.value.abs()).min_by(f64::total_cmp), stop)
 }
 
-/// Gives motions of free ones (nv each) the eigenvalue 0, which is double where nothing slows them down; what damps less than round-off
-/// does not damp.
-fn rounded(motions: &mut [DampedMotion], omega: f64, free: &[&Vec<f64>]) {
+/// Gives motions of free ones (nv each) the eigenvalue 0, which is double where nothing slows them down; what damps less than round-off does
+/// not damp.
+fn rounded(pencil: &Pencil, motions: &mut Vec<DampedMotion>, omega: f64, free: &[&Vec<f64>]) {
     let size = motions.iter().fold(omega, |m, motion| m.max(motion.value.norm()));
-    let at_rest = motions.iter_mut().take(2 * free.len()).take_while(|motion| motion.value.norm() <= RIGID * size);
-    for (motion, x) in at_rest.zip(free.iter().cycle()) {
-        *motion = DampedMotion { value: Complex::default(), vector: x.iter().map(|x| Complex::from(*x)).collect() };
-    }
+    let found = motions.iter().take(2 * free.len()).take_while(|motion| motion.value.norm() <= RIGID * size).count();
+    let complex = |x: &[f64]| x.iter().map(|x| Complex::from(*x)).collect();
+    let all = free.iter().cycle().take(free.len() + going_on(pencil, free));
+    motions.splice(..found, all.map(|x| DampedMotion { value: Complex::default(), vector: complex(x) }));
     for value in motions.iter_mut().map(|motion| &mut motion.value).filter(|value| value.re.abs() <= UNDAMPED * value.norm()) {
         value.re = 0.0;
     }
+}
+
+/// How many of free motions (nv each) nothing slows down: XᵀCX has no more rank beside its round-off, and beside what the round-off of X has
+/// of the largest damping.
+fn going_on(pencil: &Pencil, free: &[&Vec<f64>]) -> usize {
+    let resisted: Vec<Vec<f64>> = free.iter().map(|x| pencil.damping.lines().map(|line| along(&line, x)).collect()).collect();
+    let work = DMatrix::from_fn(free.len(), free.len(), |i, j| free[i].iter().zip(&resisted[j]).map(|(x, f)| x * f).sum::<f64>());
+    let made_of = |x: &Vec<f64>| -> f64 {
+        pencil.damping.lines().zip(x).map(|(line, y)| y.abs() * line.entries().map(|(j, c)| (c * x[j]).abs()).sum::<f64>()).sum()
+    };
+    let metric = &pencil.metric;
+    let size =
+        |(i, line): (usize, Line<'_, f64>)| line.entries().map(|(j, c)| c.abs() / (metric[i] * metric[j]).sqrt()).fold(0.0, f64::max);
+    let largest = pencil.damping.lines().enumerate().map(size).fold(0.0, f64::max);
+    let noise = ROUND_OFF * free.iter().map(|x| made_of(x)).fold(0.0, f64::max) + SQUARED * largest;
+    if free.is_empty() { 0 } else { work.symmetric_eigenvalues().iter().filter(|c| c.abs() <= noise).count() }
 }
 
 /// That more motions grow than are listed, or that these cannot be counted.

@@ -153,6 +153,23 @@ impl Report<'_> {
         frequencies
     }
 
+    /// That these are not all modes.
+    pub(super) fn lowest(&mut self, listed: usize, all: usize) {
+        if listed < all {
+            self.finding("lowest-modes", format!("these are the {listed} lowest of {all} modes; `lowest` asks for more"));
+        }
+    }
+
+    /// That these damped modes are not all of `n` coordinates, of which not all are known: there are as many as 2n eigenvalues make.
+    pub(super) fn lowest_of(&mut self, listed: &[Damped], n: usize) {
+        let found: usize = listed.iter().map(|mode| if mode.value.im == 0.0 { 1 } else { 2 }).sum();
+        if found < 2 * n {
+            let message =
+                format!("these are the {} lowest modes, with {found} of {} eigenvalues; `lowest` asks for more", listed.len(), 2 * n);
+            self.finding("lowest-modes", message);
+        }
+    }
+
     /// The coordinates that move most in a shape, the largest first.
     fn parts(&self, sizes: &DVector<f64>) -> String {
         let largest = sizes.amax();

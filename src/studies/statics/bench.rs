@@ -175,6 +175,7 @@ where
             // the largest part grows: the same for every order of the bodies' eigenvectors
             let largest = delta[delta.iamax()];
             delta *= PUSH * largest.signum() / self.rest.measure(&delta);
+            delta *= self.rest.sense(&on.pose, &delta);
             let beside = self.rest.moved(&on.pose, delta.as_slice()).ok()?;
             on = self.rest.descend(&beside, stop).ok()?;
             if on.stability.negative == 0 {

@@ -1,7 +1,7 @@
 //! What the unbalanced force and the stiffness of a position are made of, before they cancel: measures of their round-off.
 
 use super::rest::{Rest, norm};
-use crate::geometry::{Force, Motion, Space};
+use crate::geometry::{Motion, Space};
 use crate::mechanism::{EffortLaw, Step, StretchOf};
 use grashof_solvers::System;
 
@@ -18,7 +18,7 @@ where
         let mut stiff = vec![G::dot(m.gravity, m.gravity).sqrt() / self.size; root.len()];
         // of each effort the velocities along it are few
         let (mut along, mut touched) = (vec![0.0; root.len()], Vec::new());
-        for (effort, size) in m.efforts.iter().zip(&w.efforts) {
+        for (i, effort) in m.efforts.iter().enumerate() {
             let mut add = |gauge: usize, slope: f64| {
                 m.gauges[gauge].project(&w.readings[gauge], &w.columns, |k, x| {
                     along[k] += slope * x / root[k];
@@ -34,11 +34,10 @@ where
             }
             touched.sort_unstable();
             touched.dedup();
-            let mut size = size.abs();
-            if let EffortLaw::Linear { stiffness: k, rest, .. } = effort.law {
+            if let EffortLaw::Linear { stiffness: k, .. } = effort.law {
                 touched.iter().for_each(|&i| stiff[i] += k.abs() * along[i] * along[i]);
-                size += k.abs() * (self.system.dynamics.extent(effort.along).abs() + rest.abs());
             }
+            let size = self.system.dynamics.effort_parts(i);
             for k in touched.drain(..) {
                 grains[k] += size * along[k].abs();
                 along[k] = 0.0;
@@ -56,11 +55,10 @@ where
             Step::Axis { turns: false, q, .. } => far.max(self.state.q[q].abs()),
             _ => far,
         });
-        let length = |(body, f): (usize, &Force<G>)| {
-            let (p, size) = (w.places[body].p, G::dot(f.f, f.f).sqrt());
-            [G::dot_spin(f.n, f.n).sqrt() + size * (G::dot(p, p).sqrt() + far), size]
-        };
-        let mut pulls: Vec<[f64; 2]> = w.applied.iter().enumerate().map(length).collect();
+        let mut pulls = self.system.dynamics.pulls();
+        for ([moment, size], place) in pulls.iter_mut().zip(&w.places) {
+            *moment += *size * (G::dot(place.p, place.p).sqrt() + far);
+        }
         let mut grains = vec![0.0; root.len()];
         for node in m.nodes.iter().rev() {
             let [n, f] = pulls[node.body];

@@ -4,6 +4,7 @@
 //! Newton's method from places all over the motion, and further equilibria, are not tried.
 
 use super::explain::{Names, undefined, verdict};
+use super::kinks::{Side, decisive};
 use super::report::{Report, Told, not_stable, one_equilibrium, without_friction};
 use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
@@ -209,7 +210,9 @@ where
             // the largest part grows, as of full matrices
             let largest = falls.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { *x } else { m });
             let scale = PUSH * largest.signum() / self.sinking.measure(&falls);
-            let delta: Vec<f64> = falls.iter().map(|x| x * scale).collect();
+            let mut delta: Vec<f64> = falls.iter().map(|x| x * scale).collect();
+            let sense = self.sinking.sense(&stand, &delta);
+            delta.iter_mut().for_each(|x| *x *= sense);
             let below = self.sinking.moved(&stand, &delta).map_err(Ended::from).and_then(|beside| self.sinking.descend(&beside, stop));
             let Ok(below) = below else { return Ok(None) };
             let found = self.judged(below, stop)?;
@@ -221,8 +224,27 @@ where
         Ok(None)
     }
 
-    /// A stand with its stability.
+    /// A stand with its stability; in a kink by its decisive side.
     fn judged(&mut self, stand: Stand, stop: &dyn Fn() -> bool) -> Result<Found, Failure> {
+        let mut all = vec![self.judged_by_its_side(stand, stop)?];
+        for modes in self.sinking.other_sides(&all[0].stand) {
+            let mut stand = all[0].stand.clone();
+            stand.position.modes = modes;
+            all.push(self.judged_by_its_side(stand, stop)?);
+        }
+        if all.len() == 1 {
+            return Ok(all.remove(0));
+        }
+        let of = |found: &Found| {
+            let is_entered = !found.falls.is_empty() && self.sinking.enters(&found.stand, &found.falls);
+            Side { negative: found.negative, zero: found.zero, is_entered }
+        };
+        let chosen = decisive(&all.iter().map(of).collect::<Vec<_>>());
+        Ok(all.swap_remove(chosen))
+    }
+
+    /// A stand with its stability by its modes.
+    fn judged_by_its_side(&mut self, stand: Stand, stop: &dyn Fn() -> bool) -> Result<Found, Failure> {
         let held = self.held(&stand)?;
         let stiff = &held.pencil;
         let mut pencil = of_metric(stiff.stiffness.clone(), stiff.rows.clone(), &stiff.metric, &stiff.row_scale);

@@ -21,6 +21,7 @@ mod branch;
 mod explain;
 mod grain;
 mod grip;
+mod kinks;
 mod many;
 mod others;
 mod pose;

@@ -71,8 +71,8 @@ impl<G> Rest<'_, G>
 where
     G: Space<S = f64>,
 {
-    /// A pose with its stability, whatever its balance.
-    pub(super) fn judged(&mut self, pose: Pose) -> Result<Found, Ended> {
+    /// A pose with its stability, whatever its balance, by its modes.
+    pub(super) fn judged_by_its_side(&mut self, pose: Pose) -> Result<Found, Ended> {
         let h = self.tangent(&pose)?;
         let mut stability = Stability::new(&pose, &h);
         for (value, motion) in std::mem::take(&mut stability.weak) {
