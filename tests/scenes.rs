@@ -2,6 +2,7 @@
 
 mod gears;
 mod held;
+mod hidden;
 mod order;
 mod stops;
 mod welded;

@@ -26,6 +26,8 @@ pub struct Joint<G: Space> {
     pub axis: [f64; 3],
     /// Of a universal joint its unit axis in the second body, for drawings.
     pub second: Option<[f64; 3]>,
+    /// How the second body stands in the first as drawn, by rows, for drawings.
+    pub drawn: [[f64; 3]; 3],
     /// What its first coordinate is as drawn, rad or m.
     pub zero: f64,
     /// The tree node that it carries, and whether its first body is the child.
@@ -51,6 +53,7 @@ impl<G: Space> Joint<G> {
             b: (self.b.0, G::lift_vector::<D>(self.b.1)),
             axis: self.axis,
             second: self.second,
+            drawn: self.drawn,
             zero: self.zero,
             tree: self.tree,
             slots: Vec::new(),

@@ -8,7 +8,7 @@ use super::painting::{Painted, painted};
 use super::picture::Picture;
 use super::pose::{Drawing, Form, FormKind, LinkKind, Placement, Symbol, SymbolKind, Width};
 use super::raster::RenderError;
-use super::scene::{Color, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
+use super::scene::{Color, GREY, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin::Point;
@@ -199,6 +199,12 @@ impl Pen<'_> {
             if symbol.turns && ink.strong {
                 self.signs.thread(&mut self.scene, placement, &ink);
             }
+            if symbol.rings && ink.strong {
+                self.signs.ring(&mut self.scene, placement, &ink);
+            }
+            if symbol.hidden && ink.strong {
+                self.signs.hidden(&mut self.scene, placement, &ink);
+            }
             self.letters.pin(placement.at, strong);
             if strong {
                 let half = 1.2 * self.signs.pin_radius(true);
@@ -246,6 +252,11 @@ impl Pen<'_> {
             if symbol.boxed || (ink.strong && placement.clear == 0.0) {
                 self.signs.slider(&mut self.scene, placement, ink);
             }
+        } else if symbol.kind == SymbolKind::Plane {
+            if ink.strong {
+                let fill = if symbol.way_grounded { GREY } else { body_color(symbol.way_body) };
+                self.signs.plane(&mut self.scene, placement, fill, ink);
+            }
         } else if ink.strong && symbol.grounded && symbol.kind != SymbolKind::Slot {
             // a bearing that its bodies would hide stands in front of them
             if self.drawing.axes.is_some() && !self.is_covered(symbol, placement.at) {
@@ -259,7 +270,7 @@ impl Pen<'_> {
     /// The bearings of hinges that stand in front of bodies, behind which they would not be seen: in the plane of all with an outline, in
     /// space of the own ones.
     fn bearings(&mut self, joints: &[(&Symbol, Placement)]) {
-        let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
+        let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot | SymbolKind::Plane);
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
             if self.drawing.axes.is_none() || self.is_covered(symbol, placement.at) {
                 self.signs.ground(&mut self.scene, placement.at, symbol.above);
@@ -389,8 +400,10 @@ impl Pen<'_> {
     /// What stands beside a joint: the arrow of a drive, a dashpot, stops.
     fn beside(&mut self, symbol: &Symbol, placement: &Placement) {
         let slides = matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot);
-        let stops = placement.stops.map(|stop| stop.map(|at| if slides { self.sheet.point(at) } else { [at[0], -at[1]] }));
-        self.signs.stops(&mut self.scene, &Placement { stops, ..*placement }, slides);
+        let flipped = |[x, y]: Point| [x, -y];
+        let stops = placement.stops.map(|stop| stop.map(|at| if slides { self.sheet.point(at) } else { flipped(at) }));
+        let quarter = placement.quarter.map(flipped);
+        self.signs.stops(&mut self.scene, &Placement { stops, quarter, ..*placement }, slides);
         if symbol.driven {
             let arrow = self.signs.drive(&mut self.scene, placement, slides && !symbol.turns);
             self.letters.avoid_line(&arrow, Obstacle::Sign);

@@ -106,7 +106,7 @@ pub fn write_dxf(drawing: &Drawing) -> String {
 
 /// Whether a joint stands on a bearing of its own.
 fn stands(symbol: &Symbol) -> bool {
-    symbol.grounded && symbol.kind != SymbolKind::Slot
+    symbol.grounded && !matches!(symbol.kind, SymbolKind::Slot | SymbolKind::Plane)
 }
 
 /// Adds the lines of signs.

@@ -198,16 +198,16 @@ impl Signs {
         points
     }
 
-    /// The damping of a joint: a small dashpot behind the box of a slide, or bent about a hinge where the arrow of a drive has its gap.
-    /// Gives its middle line.
+    /// The damping of a joint: a small dashpot behind the box of a slide, beside a rod that goes through it, or behind what slides, or bent
+    /// about a hinge where the arrow of a drive has its gap. Gives its middle line.
     pub(super) fn dashpot(self, scene: &mut Scene, placement: &Placement, slides: bool, grounded: bool) -> Vec<Point> {
         let size = self.size;
         let (along, _) = direction([0.0; 2], placement.along);
         let [u, v] = placement.across;
+        let side = if along[0] >= 0.0 { -1.0 } else { 1.0 } * if placement.back > self.slide_box()[0] { 8.0 } else { 18.0 };
         // s from what moves to what holds it, t across
         let at = |s: f64, t: f64| -> Point {
             if slides {
-                let side = if along[0] >= 0.0 { -8.0 } else { 8.0 };
                 return off(placement.at, along, -self.slide_box()[0].max(placement.back) - 38.0 * size * s, size * (side + 6.0 * t));
             }
             let ((sin, cos), radius) = ((3.0 + 1.8 * s).sin_cos(), size * (27.0 + 7.5 * t));
@@ -224,9 +224,9 @@ impl Signs {
         line(run(0.35, 0.8, -1.0).chain(run(0.8, 0.35, 1.0)).collect(), 2.4);
         line(run(0.8, 1.0, 0.0).collect(), 2.4);
         line(vec![(1.0, -0.9), (1.0, 0.9)], 2.4);
-        if !slides {
-            line(vec![(0.0, 0.0), (0.0, -2.4)], 2.4);
-        } else if grounded {
+        // what it begins at
+        line(vec![(0.0, 0.0), (0.0, if slides { -f64::signum(side) } else { -2.4 })], 2.4);
+        if slides && grounded {
             // the hatch of the ground
             for t in [-0.9, -0.3, 0.3, 0.9] {
                 line(vec![(1.0, t), (1.2, t + 0.5)], 1.4);
@@ -251,26 +251,26 @@ impl Signs {
     pub(super) fn stops(self, scene: &mut Scene, placement: &Placement, slides: bool) {
         let stroke = Stroke::solid(STOP, self.pen(5.0));
         if let ([Some(first), _], Some(swing)) = (placement.stops, placement.swing) {
-            let from = (-first[1]).atan2(first[0]);
-            let on = |k: u32| {
+            let quarter = placement.quarter[0];
+            let on = |k: u32| -> Point {
                 let turned = swing * f64::from(k) / 96.0;
-                let (s, c) = (from + turned).sin_cos();
+                let (s, c) = turned.sin_cos();
                 // of more than a turn a spiral
                 let radius = SWING * self.size * if swing > TAU { 1.0 + 0.2 * turned / TAU } else { 1.0 };
-                [placement.at[0] + radius * c, placement.at[1] - radius * s]
+                std::array::from_fn(|i| placement.at[i] + radius * (c * first[i] + s * quarter[i]))
             };
             scene.line((0..=96).map(on).collect(), Stroke::solid(STOP, self.pen(1.6)));
         }
-        let stops = placement.stops.iter().zip([-1.0, 1.0]).zip(placement.beyond);
-        for (stop, sense, beyond) in stops.filter_map(|((stop, sense), beyond)| Some(((*stop)?, sense, beyond))) {
+        for (k, sense) in [-1.0, 1.0].into_iter().enumerate() {
+            let (Some(stop), beyond, quarter) = (placement.stops[k], placement.beyond[k], placement.quarter[k]) else { continue };
             if slides {
                 let (along, _) = direction([0.0; 2], placement.along);
                 let half = self.slide_box();
                 let at = |t: f64| off(stop, along, sense * (half[0].max(beyond) + 4.0 * self.size), t * half[1].max(placement.clear));
                 scene.line(vec![at(-1.0), at(1.0)], stroke);
             } else {
-                let (along, _) = direction([0.0; 2], stop);
-                let at = |s: f64| off(placement.at, along, s * self.size, -sense * (self.size * super::symbols::BAR * 0.5 + 3.0));
+                let aside = sense * (self.size * super::symbols::BAR * 0.5 + 3.0);
+                let at = |s: f64| std::array::from_fn(|i| placement.at[i] + s * self.size * stop[i] + aside * quarter[i]);
                 scene.line(vec![at(16.0), at(SWING)], stroke);
             }
         }
@@ -388,7 +388,11 @@ mod tests {
             scene.items.iter().flat_map(of).collect::<Vec<_>>()
         };
         let slide = points(&Placement { at, along: [1.0, 0.0], ..Placement::default() }, true);
-        assert!(slide.iter().all(|p| p[0] <= 100.0 - Signs { size: 1.0 }.slide_box()[0] && (p[1] - 100.0).abs() < 16.0), "{slide:?}");
+        // beside a rod that goes through the box
+        let beside = |p: &Point| p[1] > 74.0 && p[1] < 100.0 - 0.45 * crate::output::symbols::BAR;
+        assert!(slide.iter().all(|p| p[0] <= 100.0 - Signs { size: 1.0 }.slide_box()[0] && beside(p)), "{slide:?}");
+        let block = points(&Placement { at, along: [-1.0, 0.0], back: 60.0, ..Placement::default() }, true);
+        assert!(block.iter().all(|p| p[0] >= 160.0 && (p[1] - 100.0).abs() < 18.0), "{block:?}");
         // across of a hinge in the plane; the arrow of its drive is at 22 pixels, elsewhere around
         let across = [[0.0, 1.0], [1.0, 0.0]];
         let hinge = points(&Placement { at, across, ..Placement::default() }, false);

@@ -140,6 +140,10 @@ pub struct Symbol {
     pub above: bool,
     /// Of a slide: what slides is seen by its box alone, in pale positions too.
     pub boxed: bool,
+    /// Of a slide: its body can turn about the axis as well.
+    pub rings: bool,
+    /// Of a slide in the plane: areas of both bodies hide it.
+    pub hidden: bool,
     /// Of a slot: the body that it is cut into has no area of its own around it.
     pub framed: bool,
     /// Where it is, for each position.
@@ -162,6 +166,8 @@ pub enum SymbolKind {
     Cross,
     /// A small square: rigid.
     Weld,
+    /// A piece of the plane in which two bodies slide on each other.
+    Plane,
 }
 
 /// Where a joint is.
@@ -169,7 +175,7 @@ pub enum SymbolKind {
 pub struct Placement {
     /// Its point.
     pub at: [f64; 2],
-    /// The direction of a slide, a slot or a hinge in space, of any length; none is seen of a hinge in the plane.
+    /// The direction of a slide, a slot, a hinge in space or what is normal to a plane, of any length; none is seen of a hinge in the plane.
     pub along: [f64; 2],
     /// The ends of the way or slot, if they are known; else it is drawn a little longer than what is seen of the motion.
     pub way: Option<[[f64; 2]; 2]>,
@@ -183,8 +189,10 @@ pub struct Placement {
     pub clear: f64,
     /// Of a slide: its guide is on the upper side of the way, or on the left of an upright one, not on the lower side.
     pub upper: bool,
-    /// Of a slide the places where stops are, of a hinge in the plane the directions in which they are.
+    /// Of a slide the places where stops are, of a hinge the directions in which they are.
     pub stops: [Option<[f64; 2]>; 2],
+    /// Of a hinge the directions a quarter turn on from its stops.
+    pub quarter: [[f64; 2]; 2],
     /// Of a slide with stops how far the outlines of the body that slides reach from its point back and ahead along the way, m; else 0.
     pub beyond: [f64; 2],
     /// Of a slide with damping how far they reach back, m; else 0.

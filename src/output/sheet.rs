@@ -43,6 +43,7 @@ impl Sheet {
             clear: placement.clear * self.scale,
             upper: placement.upper,
             stops: placement.stops.map(|stop| stop.filter(is_usable)),
+            quarter: placement.quarter,
             beyond: placement.beyond.map(along),
             back: along(placement.back),
             swing: placement.swing,

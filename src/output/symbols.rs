@@ -257,6 +257,33 @@ impl Signs {
         scene.line(wave.collect(), Stroke::solid(looks.edge, self.pen(1.8)));
     }
 
+    /// A ring about the axis of a slide, over its box: its body can turn as well.
+    pub(super) fn ring(self, scene: &mut Scene, placement: &Placement, looks: &Looks) {
+        let (radius, [u, v]) = (1.3 * self.slide_box()[1], placement.across);
+        let on = |k: u32| {
+            let (s, c) = (TAU * f64::from(k) / 48.0).sin_cos();
+            [placement.at[0] + radius * (c * u[0] + s * v[0]), placement.at[1] + radius * (c * u[1] + s * v[1])]
+        };
+        scene.line((0..=48).map(on).collect(), Stroke::solid(looks.edge, self.pen(2.4)));
+    }
+
+    /// A piece of the plane in which two bodies slide on each other, of the body that it belongs to.
+    pub(super) fn plane(self, scene: &mut Scene, placement: &Placement, fill: Color, looks: &Looks) {
+        let (half, [u, v]) = (30.0 * self.size, placement.across);
+        let corner = |[s, t]: [f64; 2]| std::array::from_fn(|i| placement.at[i] + half * (s * u[i] + t * v[i]));
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner);
+        scene.shape(corners.to_vec(), Some(pale(fill, 0.4)), Some(Stroke::solid(looks.edge, self.pen(2.0))));
+    }
+
+    /// A slide that areas hide: the outline of its box, and the line of its way.
+    pub(super) fn hidden(self, scene: &mut Scene, placement: &Placement, looks: &Looks) {
+        let half = self.slide_box();
+        let (along, _) = direction([0.0; 2], placement.along);
+        scene.shape(corners(placement, half), None, Some(Stroke::solid(looks.edge, self.pen(1.8))));
+        let way = [-2.2, 2.2].map(|s| off(placement.at, along, s * half[0], 0.0));
+        scene.line(way.to_vec(), Stroke::dashed(looks.edge, self.pen(1.4), &[10.0, 3.0, 2.0, 3.0]));
+    }
+
     /// What a slot is cut into, where its body has no area of its own.
     pub(super) fn slot_frame(self, scene: &mut Scene, way: [Point; 2], looks: &Looks) {
         scene.line(way.to_vec(), Stroke::solid(looks.edge, 34.0 * self.size));
@@ -300,8 +327,8 @@ impl Signs {
                 }
             }
             SymbolKind::Slot => scene.circle(placement.at, 6.5 * self.size, Some(looks.edge), None),
-            // Its box is drawn below the bodies.
-            SymbolKind::Slide => {}
+            // Their box and their piece are drawn below the bodies.
+            SymbolKind::Slide | SymbolKind::Plane => {}
             SymbolKind::Weld => scene.shape(corners(placement, [6.0 * self.size; 2]), Some(looks.edge), None),
         }
     }

@@ -41,3 +41,45 @@ fn stops_stand_where_the_body_ends() {
         assert!(near(way[0], -0.06 - beyond[0]) && near(way[1], 0.06 + beyond[1]), "{way:?}");
     }
 }
+
+/// On a stop of its hinge a bar lies in the direction of the sign of that stop, whichever axis, alignment and order of bodies the hinge has,
+/// in space as in the plane.
+#[test]
+fn stops_of_hinges_lie_where_the_bar_is_then() {
+    for (space, hinge) in [
+        ("planar", "revolute: [ground, bar.start]"),
+        ("planar", "revolute: [bar.start, ground]"),
+        ("spatial", "revolute: [ground, bar.start], axis: [0, 1, 0]"),
+        ("spatial", "revolute: [bar.start, ground], axis: [0, 1, 0]"),
+        ("spatial", "revolute: [ground, bar.start], axis: [0.3, -0.2, 0.8], to: [0, 0, 1]"),
+        ("spatial", "revolute: [bar.start, ground], axis: [0, 0, 1], to: [0.3, -0.2, 0.8]"),
+        ("spatial", "revolute: [ground, bar.start], axis: [0, 0, 1], zero: 25 deg"),
+    ] {
+        for (end, k) in [("-35 deg", 0), ("70 deg", 1)] {
+            let text = format!(
+                "grashof: 1
+name: stops
+space: {space}
+gravity: none
+bodies: {{ bar: {{ bar: {{ length: 0.5 m, mass: 1 kg }} }} }}
+joints: {{ J: {{ {hinge}, limits: {{ from: -35 deg, to: 70 deg, restitution: 0 }} }} }}
+start: {{ J.angle: {end} }}
+studies: {{ rest: {{ dynamics: {{ until: 10 ms, every: 10 ms }}, columns: [J.angle] }} }}
+"
+            );
+            let (_, scene) = study(&text, "rest", Coordinates::Joint).scenes.remove(0);
+            let drawing = grashof::output::drawing("stops", "rest", "mechanism", &scene);
+            let placement = drawing.joints[0].poses[0];
+            let grashof::output::FormKind::Bar { from, to, .. } = drawing.bodies[1].poses[0][0].kind else { panic!("a bar") };
+            // of a hinge to the ground the ends are those about the opposite axis
+            let stop = if placement.stops[k].is_some_and(|stop| is_along(stop, from, to)) { k } else { 1 - k };
+            let told = placement.stops[stop].unwrap();
+            assert!(is_along(told, from, to), "{hinge}, {end}: {:?} {from:?} {to:?}", placement.stops);
+            assert!(stop == k || space == "planar" && hinge.contains(", ground]"), "{hinge}, {end}");
+        }
+    }
+}
+
+fn is_along(direction: [f64; 2], from: [f64; 2], to: [f64; 2]) -> bool {
+    (0..2).all(|i| (to[i] - from[i] - 0.5 * direction[i]).abs() < 1e-9)
+}

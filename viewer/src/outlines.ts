@@ -12,6 +12,11 @@ const EDGES = 16;
 /** The same of one in space. */
 const ROUND = 12;
 
+/** Whether a shape has an area. */
+export function isArea(shape: Shape): boolean {
+  return shape.kind === 'hull' ? shape.points.length > 2 : ['polygon', 'disc', 'gear', 'box'].includes(shape.kind);
+}
+
 /** Points of a circle in the plane; none in space. */
 export function circle(center: number[], radius: number, count: number): number[][] {
   const turn = (k: number) => (2 * Math.PI * k) / count;

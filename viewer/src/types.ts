@@ -185,12 +185,16 @@ export interface Joint {
   /** Of a hinge in the plane the directions of its stops in the first body, rad, if it has any, and the angle between both. */
   ends?: [Num, Num];
   swing?: Num;
+  /** Of a hinge in space the unit directions of its stops in the first body, across the axis, if it has any. */
+  far?: [number[] | null, number[] | null];
   /** Whether its bearing stands above it. */
   above?: boolean;
   /** Of a slide: whether its guide is on the upper side of the way. */
   upper?: boolean;
   /** Whether a slot is drawn with what it is cut into. */
   framed?: boolean;
+  /** Of a slide: whether areas of both bodies hide it. */
+  hidden?: boolean;
   /** Of what is driven the sense in which it moves at first: 0 is none. */
   sense?: number;
   cut: boolean;

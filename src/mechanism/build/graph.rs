@@ -43,6 +43,7 @@ impl<G: Space> Builder<'_, G> {
                 b: self.at(joint.b),
                 axis: shape.triad[if self.planar { 0 } else { 2 }],
                 second: matches!(shape.kind, JointKind::Universal { .. }).then_some(shape.second),
+                drawn: shape.align,
                 zero: shape.zero,
                 tree: None,
                 slots: vec![],

@@ -185,3 +185,35 @@ fn a_box_is_drawn_where_no_shape_of_the_body_shows_that_it_slides() {
     };
     assert!(boxes(false, 0.0) > boxes(false, 0.1) && boxes(true, 0.1) > boxes(false, 0.1));
 }
+
+/// The lines of a joint alone, each by its points and whether it is filled.
+fn lines_of(symbol: Symbol) -> Vec<(Vec<Point>, bool)> {
+    let items = layout(&Drawing { joints: vec![symbol], ..Drawing::default() }).items;
+    let of = |item: Item| if let Item::Path { points, fill, .. } = item { Some((points, fill.is_some())) } else { None };
+    items.into_iter().filter_map(of).collect()
+}
+
+#[test]
+fn a_plane_is_drawn_across_its_normal_and_a_ring_about_the_axis_that_a_slide_turns_about() {
+    let placement = Placement { along: [0.0, 1.0], across: [[1.0, 0.0], [0.0, 0.4]], ..Placement::default() };
+    let plane =
+        lines_of(Symbol { kind: SymbolKind::Plane, way_grounded: true, grounded: true, poses: vec![placement], ..Symbol::default() });
+    // one piece, as wide as the direction across is long, and neither a way along its normal nor a bearing
+    let [(corners, true)] = &plane[..1] else { panic!("{plane:?}") };
+    let reach = |axis: usize| {
+        corners.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max) - corners.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min)
+    };
+    assert!(corners.len() == 4 && (reach(1) / reach(0) - 0.4).abs() < 1e-9, "{corners:?}");
+    let slide = |rings| lines_of(Symbol { kind: SymbolKind::Slide, rings, boxed: true, poses: vec![placement], ..Symbol::default() }).len();
+    assert_eq!(slide(true), slide(false) + 1);
+}
+
+#[test]
+fn a_slide_that_areas_hide_is_shown_by_the_outline_of_its_box() {
+    let placement = Placement { along: [1.0, 0.0], clear: 0.1, ..Placement::default() };
+    let of = |hidden| lines_of(Symbol { kind: SymbolKind::Slide, hidden, way_body: 1, poses: vec![placement], ..Symbol::default() });
+    let (with, without) = (of(true), of(false));
+    assert_eq!(with.len(), without.len() + 2);
+    let outline = with.iter().find(|(points, filled)| points.len() == 4 && !filled).expect("an outline");
+    assert!(!without.contains(outline));
+}

@@ -1,8 +1,10 @@
 //! Joints in the picture: their places, ways, stops, and the sense in which they move.
 
 use super::Posed;
+use crate::output::measure::encloses;
 use crate::output::pose::{Placement, Symbol, SymbolKind};
-use crate::output::winding;
+use crate::output::{view, winding};
+use crate::results::Scene;
 use crate::results::scene::{GearKind, Joint, Place, Shape};
 
 impl Posed<'_> {
@@ -23,6 +25,8 @@ impl Posed<'_> {
                 above: self.stands_above(joint),
                 framed: kind == SymbolKind::Slot && !self.scene.bodies[joint.a.body].shapes.iter().any(is_area),
                 boxed: !self.scene.bodies[joint.b.body].shapes.iter().any(is_area),
+                rings: joint.kind == "cylindrical",
+                hidden: kind == SymbolKind::Slide && [&joint.a, &joint.b].iter().all(|place| self.is_hidden(place.body, &joint.b)),
                 poses: self.frames.iter().map(|poses| self.placement(poses, joint, kind)).collect(),
             })
         })
@@ -43,9 +47,11 @@ impl Posed<'_> {
         let upper = kind == SymbolKind::Slide && planar && self.guided_above(joint, axis);
         let reach = if kind == SymbolKind::Slide { self.extent_along(poses, joint, axis) } else { [0.0; 2] };
         let beyond = std::array::from_fn(|end| if joint.stops[end].is_some() { reach[end] } else { 0.0 });
-        let stops = joint.stops.map(|stop| if slides { Some(on_way(stop?)) } else { self.stop_of_hinge(poses, joint, stop?) });
+        let turned = joint.stops.map(|stop| self.stop_of_hinge(poses, joint, stop.filter(|_| !slides)?));
+        let stops = joint.stops.map(|stop| Some(on_way(stop.filter(|_| slides)?)));
+        let stops = if slides { stops } else { turned.map(|ends| Some(ends?[0])) };
         Placement {
-            at: self.flat(poses, if slides { &joint.b } else { &joint.a }),
+            at: self.flat(poses, if slides || kind == SymbolKind::Plane { &joint.b } else { &joint.a }),
             along: if planar && !slides { [0.0; 2] } else { self.view.flat(axis) },
             way: joint.stroke.filter(|_| slides).map(|[low, high]| [on_way(low - beyond[0]), on_way(high + beyond[1])]),
             carrier: self.carrier(joint).filter(|_| slides).map(|(ends, round)| (ends.map(on_way), round)),
@@ -55,6 +61,7 @@ impl Posed<'_> {
             sense: joint.sense,
             swing: joint.stops[0].zip(joint.stops[1]).map(|(a, b)| b - a).filter(|_| !slides && stops.iter().all(Option::is_some)),
             stops,
+            quarter: turned.map(|ends| ends.map_or([0.0; 2], |[_, quarter]| quarter)),
             beyond,
             back: if joint.damped { reach[0] } else { 0.0 },
         }
@@ -159,6 +166,26 @@ impl Posed<'_> {
         self.scene.bodies[joint.b.body].shapes.iter().map(of).filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
+    /// Whether an area of a body in the plane lies around a place in the first position.
+    fn is_hidden(&self, body: usize, place: &Place) -> bool {
+        let Some(poses) = self.frames.first().filter(|_| self.scene.dimensions == 2 && body != 0) else { return false };
+        let at = self.flat(poses, place);
+        let flat = |p: &[f64]| self.flat(poses, &Place { body, at: p.to_vec() });
+        let around = |shape: &Shape| match shape {
+            Shape::Polygon { points } => encloses(&points.iter().map(|p| flat(p)).collect::<Vec<_>>(), at),
+            Shape::Disc { center, radius, .. } | Shape::Gear { center, radius, .. } => {
+                let [x, y] = flat(center);
+                (x - at[0]).hypot(y - at[1]) < *radius
+            }
+            Shape::Box { center, size } => {
+                let corner = |[s, t]: [f64; 2]| flat(&[center[0] + 0.5 * s * size[0], center[1] + 0.5 * t * size[1]]);
+                encloses(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner), at)
+            }
+            _ => false,
+        };
+        self.scene.bodies[body].shapes.iter().any(around)
+    }
+
     /// Whether the bearing of a hinge stands above it: in the plane under a wheel whose rack is below.
     fn stands_above(&self, joint: &Joint) -> bool {
         let wheel = if joint.a.body == 0 { joint.b.body } else { joint.a.body };
@@ -173,23 +200,54 @@ impl Posed<'_> {
         })
     }
 
-    /// The direction in the plane that the second body has on a stop: from the hinge to its farthest place, or if that is one of several its x
-    /// axis.
-    fn stop_of_hinge(&self, poses: &[f64], joint: &Joint, stop: f64) -> Option<[f64; 2]> {
+    /// The direction that the second body has on a stop, as it is seen, and that a quarter turn on: in the plane from the hinge to its
+    /// farthest place, or if that is one of several its x axis.
+    fn stop_of_hinge(&self, poses: &[f64], joint: &Joint, stop: f64) -> Option<[[f64; 2]; 2]> {
+        if self.scene.dimensions == 3 {
+            let [axis, far] =
+                [&joint.axis[..], &far_at_stop(self.scene, joint, stop)?].map(|e| self.scene.direction(poses, joint.a.body, e));
+            return Some([far, cross(axis, far)].map(|e| self.view.flat(e)));
+        }
         let at = &joint.b.at;
         let from = |p: &&Vec<f64>| (p[0] - at[0]).hypot(p[1] - at[1]);
-        let joints = self.scene.joints.iter().flat_map(|j| [&j.a, &j.b]).filter(|p| p.body == joint.b.body).map(|p| &p.at);
-        if self.scene.dimensions == 3 {
-            return None;
-        }
-        let places: Vec<&Vec<f64>> = joints.chain(self.scene.bodies[joint.b.body].shapes.iter().flat_map(points)).collect();
+        let places = places_of(self.scene, joint.b.body);
         let far = places.iter().copied().max_by(|p, q| from(p).total_cmp(&from(q)))?;
         let (reach, apart) = (from(&far), |p: &&&Vec<f64>| (p[0] - far[0]).hypot(p[1] - far[1]));
         let alone = !places.iter().any(|p| from(p) > 0.99 * reach && apart(&p) > 0.1 * reach);
         let own = if alone && reach > 0.0 { (far[1] - at[1]).atan2(far[0] - at[0]) } else { 0.0 };
         let (s, c) = (self.angle(poses, joint.a.body) + stop + own).sin_cos();
-        Some([c, s])
+        Some([[c, s], [-s, c]])
     }
+}
+
+/// The unit direction in the first body, across the axis of a hinge in space, in which the second one reaches farthest on a stop.
+pub(in crate::output) fn far_at_stop(scene: &Scene, joint: &Joint, stop: f64) -> Option<[f64; 3]> {
+    let three = |v: &[f64]| -> Option<[f64; 3]> { v.try_into().ok() };
+    let (axis, rows) = (three(&joint.axis)?, <[f64; 9]>::try_from(&joint.drawn[..]).ok()?);
+    let from = |p: &Vec<f64>| {
+        let p: [f64; 3] = std::array::from_fn(|i| p[i] - joint.b.at[i]);
+        let p: [f64; 3] = std::array::from_fn(|i| (0..3).map(|k| rows[3 * i + k] * p[k]).sum());
+        let along: f64 = p.iter().zip(&axis).map(|(x, e)| x * e).sum();
+        p.iter().zip(&axis).map(|(x, e)| x - along * e).collect::<Vec<f64>>()
+    };
+    let length = |p: &[f64]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let far = places_of(scene, joint.b.body).into_iter().map(from).max_by(|p, q| length(p).total_cmp(&length(q)))?;
+    let reach = length(&far);
+    // a wheel without a place beside its axis has any
+    let far = if reach > 0.0 { three(&far)?.map(|x| x / reach) } else { view::across(axis)[0] };
+    let (s, c) = stop.sin_cos();
+    let quarter = cross(axis, far);
+    Some(std::array::from_fn(|i| c * far[i] + s * quarter[i]))
+}
+
+fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// The places of a body: those of its joints, and of its shapes.
+fn places_of(scene: &Scene, body: usize) -> Vec<&Vec<f64>> {
+    let joints = scene.joints.iter().flat_map(|j| [&j.a, &j.b]).filter(|p| p.body == body).map(|p| &p.at);
+    joints.chain(scene.bodies[body].shapes.iter().flat_map(points)).collect()
 }
 
 /// The direction to the lower side of a way, or to the right of an upright one.
@@ -224,7 +282,8 @@ fn points(shape: &Shape) -> Vec<&Vec<f64>> {
 /// What a kind of joint looks like; none if it is not seen.
 fn symbol(kind: &str) -> Option<SymbolKind> {
     match kind {
-        "slider" | "cylindrical" | "planar" | "screw" => Some(SymbolKind::Slide),
+        "slider" | "cylindrical" | "screw" => Some(SymbolKind::Slide),
+        "planar" => Some(SymbolKind::Plane),
         "pin-in-slot" => Some(SymbolKind::Slot),
         "spherical" => Some(SymbolKind::Ball),
         "universal" => Some(SymbolKind::Cross),

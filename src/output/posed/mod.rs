@@ -3,7 +3,7 @@
 mod forces;
 pub(super) mod forms;
 mod gears;
-mod joints;
+pub(super) mod joints;
 mod moves;
 mod telescope;
 pub(super) mod traces;

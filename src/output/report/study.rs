@@ -228,8 +228,8 @@ fn drawing(scene: &Scene) -> Value {
     value
 }
 
-/// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, rad, and the angle
-/// between them; of a slide how far the body that slides reaches beyond its point, m: to its stops, and back to its dashpot; whether a bearing
+/// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, in the plane
+/// rad, and the angle between them; of a slide how far the body that slides reaches beyond its point, m: to its stops, and back to its dashpot; whether a bearing
 /// stands above its hinge, and a slot has a frame.
 fn signs(value: &mut Value, scene: &Scene) {
     let Some(first) = scene.frames.at.first() else { return };
@@ -248,14 +248,18 @@ fn signs(value: &mut Value, scene: &Scene) {
         if placement.back > 0.0 {
             joint["back"] = json(&placement.back);
         }
-        for (key, holds) in [("above", symbol.above), ("framed", symbol.framed), ("upper", placement.upper)] {
+        for (key, holds) in [("above", symbol.above), ("framed", symbol.framed), ("hidden", symbol.hidden), ("upper", placement.upper)] {
             if holds {
                 joint[key] = true.into();
             }
         }
         if symbol.kind == SymbolKind::Hinge && placement.stops.iter().any(Option::is_some) {
-            let [x, y, _] = scene.direction(poses, of.a.body, &[1.0]);
             joint["swing"] = json(&placement.swing);
+            if scene.dimensions == 3 {
+                joint["far"] = json(&of.stops.map(|stop| posed::joints::far_at_stop(scene, of, stop?)));
+                continue;
+            }
+            let [x, y, _] = scene.direction(poses, of.a.body, &[1.0]);
             joint["ends"] = json(&placement.stops.map(|stop| stop.map(|[u, v]| v.atan2(u) - y.atan2(x))));
         }
     }

@@ -47,6 +47,9 @@ pub struct Joint {
     pub stroke: Option<[f64; 2]>,
     /// Ends of its coordinate where it has stops, measured as the place of b from a along the axis, m, or as drawn, rad.
     pub stops: [Option<f64>; 2],
+    /// Of a hinge in space with stops: how the second body stands in the first as drawn, a rotation by rows; else empty.
+    #[serde(default)]
+    pub drawn: Vec<f64>,
     /// Whether it is kept off the tree.
     pub cut: bool,
     /// Whether a driver or motor moves it.

@@ -4,6 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import type { Motion } from '../motion';
 import { type Named, Names } from '../names';
+import { isArea } from '../outlines';
 import { pointed } from '../pointed';
 import { type Options, PALE, type Renderer } from '../renderer';
 import { type Told, scalesHeight, tellScales } from '../scales';
@@ -416,7 +417,8 @@ export class Plane implements Renderer {
     if (joint.kind === 'pin-in-slot' || !signs.slides(joint)) return;
     const [at, along] = [this.point(joint.b), this.along(joint.a.body, joint.axis)];
     if (joint.b.body === 0) signs.foot(this.pen, at, along, this.inks);
-    signs.box(this.pen, at, along, this.inks);
+    // a body with a shape beside its guide is seen to slide on it
+    if (!this.motion.scene.bodies[joint.b.body]!.shapes.some(isArea) || this.clear(joint) === 0) signs.box(this.pen, at, along, this.inks);
   }
 
   private dashpot(joint: Joint): void {
@@ -431,13 +433,14 @@ export class Plane implements Renderer {
     const slide = signs.slides(joint) ? along : null;
     const reach = (beyond ?? [0, 0]).map((x) => x * this.scale) as Point;
     if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : off(this.point(a), along, s * this.scale, 0))), along, reach, this.clear(joint), this.inks);
-    else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : turned + angle)), swing ?? null, this.inks);
+    else if (ends) signs.ends(this.pen, this.point(a), ends.map((angle) => (angle === null ? null : signs.turnedBy(turned + angle))), swing ?? null, this.inks);
     if (driven) signs.drive(this.pen, this.point(slide ? b : a), slide, [[0, 1], [1, 0]], sense ?? 0, this.inks);
   }
 
   private sign(joint: Joint): void {
     if (!signs.seen(joint)) return;
-    const { kind, a, b, driven } = joint;
+    const { kind, a, b, axis, driven, hidden } = joint;
+    if (hidden) signs.hidden(this.pen, this.point(b), this.along(a.body, axis), this.inks);
     signs.pin(this.pen, kind, this.point(a.body === 0 && !signs.slides(joint) ? a : b), driven, this.inks);
   }
 

@@ -66,6 +66,13 @@ export function box(pen: Pen, at: Point, along: Point, inks: Inks): void {
   pen.path([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)], true).fill(mixed(inks.paper, inks.faint, 0.3)).stroke(inks.ink, 1.6);
 }
 
+/** A slide that the areas of both of its bodies hide: the outline of its box, and the line of its way. */
+export function hidden(pen: Pen, at: Point, along: Point, inks: Inks): void {
+  const corner = (s: number, t: number) => off(at, along, s * BOX[0], t * BOX[1]);
+  pen.path([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)], true).stroke(inks.ink, 1.2);
+  pen.path([corner(-2.2, 0), corner(2.2, 0)]).stroke(inks.ink, 1, CENTRE);
+}
+
 /** What a slot is cut into, where its body has no area of its own. */
 export function slotFrame(pen: Pen, a: Point, b: Point, { fill, edge }: { fill: string; edge: string }): void {
   pen.path([a, b]).stroke(edge, 25).stroke(fill, 22);
@@ -136,34 +143,43 @@ export function stops(pen: Pen, places: (Point | null)[], along: Point, reach: P
   });
 }
 
-/** The stops of a hinge in the plane, in the directions in which it meets them: radial bars beside it, between which an arc is its range. */
-export function ends(pen: Pen, at: Point, angles: (number | null)[], swing: number | null, inks: Inks): void {
-  const from = angles[0];
-  if (from !== null && from !== undefined && swing !== null) {
+/** A direction as it is seen, and that a quarter turn on. */
+export type Turned = [Point, Point];
+
+/** A direction in the plane by its angle. */
+export function turnedBy(angle: number): Turned {
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return [[cos, -sin], [-sin, -cos]];
+}
+
+/** The stops of a hinge, in the directions in which it meets them: radial bars beside it, between which an arc is its range. */
+export function ends(pen: Pen, at: Point, stops: (Turned | null)[], swing: number | null, inks: Inks): void {
+  const from = stops[0];
+  const along = (s: number, t: number, [u, v]: Turned): Point => [at[0] + s * u[0] + t * v[0], at[1] + s * u[1] + t * v[1]];
+  if (from && swing !== null) {
     // of more than a turn a spiral
     const on = (turn: number): Point => {
       const radius = 28 * (swing > 2 * Math.PI ? 1 + (0.2 * turn) / (2 * Math.PI) : 1);
-      return [at[0] + radius * Math.cos(from + turn), at[1] - radius * Math.sin(from + turn)];
+      return along(radius * Math.cos(turn), radius * Math.sin(turn), from);
     };
     pen.path(Array.from({ length: 97 }, (_, k) => on((swing * k) / 96))).stroke(stopInk(inks), 1.1);
   }
-  angles.forEach((angle, k) => {
-    if (angle === null) return;
-    const along: Point = [Math.cos(angle), -Math.sin(angle)];
-    const aside = k === 0 ? 10.5 : -10.5;
-    pen.path([off(at, along, 10, aside), off(at, along, 28, aside)]).stroke(stopInk(inks), 3.2);
+  stops.forEach((stop, k) => {
+    const aside = k === 0 ? -10.5 : 10.5;
+    if (stop) pen.path([along(10, aside, stop), along(28, aside, stop)]).stroke(stopInk(inks), 3.2);
   });
 }
 
 /**
- * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, or what slides, so many pixels back, or bent
- * about a hinge, to its upper left, where its bearing is not.
+ * The damping of a joint: a small dashpot behind the box of a slide that goes along a direction, beside a rod that goes through it, or behind
+ * what slides, so many pixels back, or bent about a hinge, to its upper left, where its bearing is not.
  */
 export function dashpot(pen: Pen, center: Point, slide: Point | null, back: number, grounded: boolean, inks: Inks): void {
   const color = inks.rust;
   // s from what moves to what holds it, t across
+  const aside = (slide && slide[0] >= 0 ? -1 : 1) * (back > BOX[0] ? 4 : 10);
   const at = ([s, t]: Point): Point => {
-    if (slide) return off(center, slide, -Math.max(BOX[0], back) - 24 * s, (slide[0] >= 0 ? -4 : 4) + 4 * t);
+    if (slide) return off(center, slide, -Math.max(BOX[0], back) - 24 * s, aside + 4 * t);
     const [angle, radius] = [3 - 1.8 * s, 19 + 5.5 * t];
     return [center[0] + radius * Math.cos(angle), center[1] - radius * Math.sin(angle)];
   };
@@ -174,9 +190,9 @@ export function dashpot(pen: Pen, center: Point, slide: Point | null, back: numb
   line([...run(0.35, 0.8, -1), ...run(0.8, 0.35, 1)], 1.7);
   line(run(0.8, 1, 0), 1.7);
   line([[1, -0.9], [1, 0.9]], 1.7);
-  if (!slide) line([[0, 0], [0, -2.4]], 1.7);
+  line([[0, 0], [0, slide ? -Math.sign(aside) : -2.4]], 1.7);
   // the hatch of the ground
-  else if (grounded) for (const t of [-0.9, -0.3, 0.3, 0.9]) line([[1, t], [1.2, t + 0.5]], 1);
+  if (slide && grounded) for (const t of [-0.9, -0.3, 0.3, 0.9]) line([[1, t], [1.2, t + 0.5]], 1);
 }
 
 /** The points of a coil between two points of the line from a along `along`. */

@@ -4,6 +4,7 @@ import { type Arrows, COLOR, type Kind } from '../arrows';
 import { Followed, LEAST } from '../follow';
 import { type Motion, type Vector, cross } from '../motion';
 import { type Named, Names } from '../names';
+import { isArea } from '../outlines';
 import { cylinder } from '../plane/cylinder';
 import { type Bounds, Fits, ROOM, type Tip, fitted, tipsOf } from '../plane/fit';
 import { Pen, type Point, toward } from '../plane/pen';
@@ -14,7 +15,7 @@ import { type Told, scalesHeight, tellScales } from '../scales';
 import { type Inks, bodyInks, massInk, mixed, pathInk, rodInks } from '../theme';
 import type { Joint } from '../types';
 import { bodies } from './bodies';
-import { front } from './front';
+import { type Sight, front } from './front';
 import { type Face, add, ball, dot, facing, scaled, tube, unit } from './vectors';
 import { type Line, lines } from './winding';
 
@@ -135,7 +136,7 @@ class Space implements Renderer {
   pointed(at: Point): string | null {
     const { motion, place } = this;
     const stand = { direction: (body: number, along: Vector) => motion.direction(body, along, place), world: (body: number, own: Vector) => motion.world({ body, at: own }, place) };
-    const sight = { right: this.right, above: this.above, toEye: this.toEye, scale: this.scale, pixel: (seen: Vector) => this.pixel(seen), depth: (seen: Vector) => this.depth(seen) };
+    const sight = this.sight();
     const paths = this.shown ? this.paths.map(({ name, points }) => ({ name, points: points.map((p) => this.pixel(p)) })) : [];
     return pointed(motion, place, sight.pixel, paths, at, front(this.faces.all, stand, sight, at, MARGIN * this.size));
   }
@@ -163,8 +164,10 @@ class Space implements Renderer {
     look(width < NARROW ? Math.max(scales, AXES_HEIGHT) : scales);
     pen.on.clearRect(0, 0, width, height);
     this.ground(inks);
-    motion.scene.joints.filter(signs.seen).forEach((joint) => this.bearing(joint, inks));
     const { all, pins } = this.shapes(inks);
+    const seen = motion.scene.joints.filter(signs.seen);
+    const before = seen.filter((joint) => this.isCovered(joint, all));
+    seen.filter((joint) => !before.includes(joint)).forEach((joint) => this.bearing(joint, inks));
     const bodies = () => {
       const items: Item[] = [];
       all.forEach((faces, body) => faces.forEach((face) => this.face(items, face, body)));
@@ -191,13 +194,28 @@ class Space implements Renderer {
     for (const gear of motion.scene.gears) lines(gear, motion, place).forEach((line) => this.line(items, line, inks));
     paint(items);
     // over the bodies, as in the figures of the program
-    for (const joint of motion.scene.joints.filter(signs.seen)) this.marks(joint, inks);
+    before.forEach((joint) => this.bearing(joint, inks));
+    for (const joint of seen) this.marks(joint, inks);
     for (const joint of motion.scene.joints.filter(({ damped }) => damped)) this.dashpot(joint, inks);
     if (options.paths !== 'none') this.drawPaths(options.paths === 'growing', inks);
     for (const kind of options.arrows) this.drawArrows(kind, pixels(kind), inks);
     if (options.names) this.names.draw(pen, place, (at, then) => this.pixel(at, add(this.middle, this.followed.base(then))), [...this.outlook(), this.scale], [width, height], inks, options.paths !== 'none');
     this.axes(height, inks);
     this.told = tellScales(pen, this.arrows, options.arrows, pixels, AXES, [width, height], inks);
+  }
+
+  /** Whether the own body of a hinge on the ground would hide its bearing. */
+  private isCovered({ kind, a, b }: Joint, all: Face[][]): boolean {
+    const { motion, place } = this;
+    const body = a.body === 0 ? b.body : b.body === 0 ? a.body : 0;
+    if (body === 0 || SLIDES.includes(kind) || !motion.scene.bodies[body]!.shapes.some(isArea)) return false;
+    const stand = { direction: (_: number, along: Vector) => motion.direction(body, along, place), world: (_: number, at: Vector) => motion.world({ body, at }, place) };
+    return front([all[body]!.filter(({ clear }) => !clear)], stand, this.sight(), this.pixel(motion.world(a, place)), 0) !== null;
+  }
+
+  /** From where the faces are seen. */
+  private sight(): Sight {
+    return { right: this.right, above: this.above, toEye: this.toEye, scale: this.scale, pixel: (seen) => this.pixel(seen), depth: (seen) => this.depth(seen) };
   }
 
   /** The ground below what it holds. */
@@ -210,14 +228,19 @@ class Space implements Renderer {
     } else if (!SLIDES.includes(kind) && (a.body === 0 || b.body === 0)) signs.bearing(this.pen, this.pixel(at), inks);
   }
 
-  /** The stops of a slide, and what drives a joint. */
-  private marks({ kind, a, b, axis, stops, beyond, driven, sense }: Joint, inks: Inks): void {
+  /** The stops of a joint, and what drives it. */
+  private marks({ kind, a, b, axis, stops, beyond, far, swing, driven, sense }: Joint, inks: Inks): void {
     const along = unit(this.motion.direction(a.body, axis, this.place));
     const seen = (v: Vector): Point => [dot(v, this.right), -dot(v, this.above)];
     const slide = SLIDES.includes(kind) ? toward([0, 0], seen(along)).along : null;
     const at = this.motion.world(a, this.place);
     const reach = (beyond ?? [0, 0]).map((x) => x * Math.hypot(...seen(along)) * this.scale) as Point;
     if (slide) signs.stops(this.pen, stops.map((s) => (s === null ? null : this.pixel(add(at, along, s)))), slide, reach, 0, inks);
+    const turned = (own: number[]): signs.Turned => {
+      const there = this.motion.direction(a.body, own, this.place);
+      return [seen(there), seen(cross(along, there))];
+    };
+    if (far) signs.ends(this.pen, this.pixel(at), far.map((own) => own && turned(own)), swing ?? null, inks);
     const [u, v] = facing(along, this.toEye, 0.75);
     if (driven) signs.drive(this.pen, this.pixel(slide ? this.motion.world(b, this.place) : at), kind === 'screw' ? null : slide, [seen(u), seen(v)], sense ?? 0, inks);
   }
@@ -329,7 +352,9 @@ class Space implements Renderer {
     // a thread: rings on a core
     if (kind === 'screw') return [...tube(add(at, along, -3 * r), add(at, along, 3 * r), 0.75 * r, 0.75 * r, 12, color),
       ...[-2.2, -1.1, 0, 1.1, 2.2].flatMap((k) => tube(add(at, along, (k - 0.25) * r), add(at, along, (k + 0.25) * r), 1.3 * r, 1.3 * r, 12, color))];
-    if (!SLIDES.includes(kind)) return tube(add(at, along, -1.9 * r), add(at, along, 1.9 * r), r, r, 12, color);
+    // a piece of the plane
+    if (kind === 'planar') return tube(add(at, along, -0.1 * r), add(at, along, 0.1 * r), 4 * r, 4 * r, 4, color);
+    if (!SLIDES.includes(kind) && kind !== 'cylindrical') return tube(add(at, along, -1.9 * r), add(at, along, 1.9 * r), r, r, 12, color);
     // a guide in the colour of the body that it belongs to
     const [low, high] = stroke ?? [0, 0];
     const own = a.body === 0 ? mixed(inks.paper, inks.faint, 0.7) : bodyInks(this.motion.scene.bodies[a.body]!.color, inks).edge;
@@ -349,15 +374,16 @@ class Space implements Renderer {
     return this.arm([b.at[0] ?? 0, b.at[1] ?? 0, b.at[2] ?? 0], unit([second[0]!, second[1]!, second[2]!]), color);
   }
 
-  /** The box of a slide on its guide. */
+  /** The box of a slide on its guide; round if it turns about that as well. */
   private slideBox({ kind, a, b, axis, driven }: Joint, inks: Inks): Face[] {
-    if (!SLIDES.includes(kind) || axis.length < 3) return [];
-    // a slide does not turn its body
+    const turns = kind === 'cylindrical';
+    if (!(turns || SLIDES.includes(kind)) || axis.length < 3) return [];
+    // neither turns its body across the axis
     const world = this.motion.direction(a.body, axis, this.motion.from);
     const own = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as Vector[]).map((e) => dot(this.motion.direction(b.body, e, this.motion.from), world)) as Vector;
     const at: Vector = [b.at[0] ?? 0, b.at[1] ?? 0, b.at[2] ?? 0];
     const r = 0.017 * this.size;
-    return tube(add(at, own, -1.5 * r), add(at, own, 1.5 * r), 1.2 * r, 1.2 * r, 4, driven ? inks.accent : mixed(inks.ink, inks.paper, 0.5));
+    return tube(add(at, own, -1.5 * r), add(at, own, 1.5 * r), 1.2 * r, 1.2 * r, turns ? 14 : 4, driven ? inks.accent : mixed(inks.ink, inks.paper, 0.5));
   }
 
   /** A rod without mass. */

@@ -28,6 +28,11 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 axis: joint.axis[..G::VECTOR].to_vec(),
                 second: joint.second.map_or_else(Vec::new, Vec::from),
                 stroke: None,
+                drawn: if G::VECTOR == 3 && joint.kind == "revolute" && stops.iter().any(Option::is_some) {
+                    joint.drawn.concat()
+                } else {
+                    Vec::new()
+                },
                 stops,
                 cut: joint.tree.is_none(),
                 driven: drivers.chain(case.model.motors.iter().map(|m| m.joint)).any(|driven| driven == index),
@@ -59,7 +64,8 @@ fn from_ground(scene: &Scene, joint: Joint) -> Joint {
     let along = scene.direction(scene.frame(0), joint.a.body, &joint.axis);
     // the axis of a hinge in the plane is the third one, whatever the order
     let stops = if turns { [joint.stops[1], joint.stops[0]].map(|stop| stop.map(|stop| -stop)) } else { joint.stops };
-    Joint { a: joint.b, b: joint.a, axis: along[..scene.dimensions].iter().map(|x| 0.0 - x).collect(), stops, ..joint }
+    let drawn = if joint.drawn.is_empty() { Vec::new() } else { (0..9).map(|k| joint.drawn[3 * (k % 3) + k / 3]).collect() };
+    Joint { drawn, a: joint.b, b: joint.a, axis: along[..scene.dimensions].iter().map(|x| 0.0 - x).collect(), stops, ..joint }
 }
 
 /// The ends of the coordinate of a joint, if it has stops.
