@@ -2,6 +2,7 @@
 
 use super::explain::{Names, place, six, undefined};
 use super::grip::{self, Gripped};
+use super::kinks::Leaving;
 use super::pose::Pose;
 use super::report::{Report, Told, not_stable, without_friction};
 use super::rest::{Lost, Position, Rest};
@@ -175,7 +176,7 @@ where
             // the largest part grows: the same for every order of the bodies' eigenvectors
             let largest = delta[delta.iamax()];
             delta *= PUSH * largest.signum() / self.rest.measure(&delta);
-            delta *= self.rest.sense(&on.pose, &delta);
+            delta *= self.rest.sense(&on.pose, delta.as_slice());
             let beside = self.rest.moved(&on.pose, delta.as_slice()).ok()?;
             on = self.rest.descend(&beside, stop).ok()?;
             if on.stability.negative == 0 {

@@ -29,115 +29,127 @@ pub(super) fn decisive(sides: &[Side]) -> usize {
     falls.or_else(open).or_else(|| sides.iter().position(|side| side.negative + side.zero == 0)).unwrap_or(0)
 }
 
-/// The numbers of the switches of all laws.
-fn switches<G: Space>(mechanism: &Mechanism<G>) -> Vec<usize> {
+/// A mechanism at rest that can be left a little.
+pub(super) trait Leaving {
+    /// Where it rests.
+    type Place;
+
+    /// The numbers of the switches of all laws.
+    fn laws(&self) -> Vec<usize>;
+
+    /// The length of a motion (nv), in rad or sizes.
+    fn length(&self, motion: &[f64]) -> f64;
+
+    /// The modes at a place.
+    fn modes(place: &Self::Place) -> &[i32];
+
+    /// The modes behind a motion (nv) from a place; none if it leads nowhere.
+    fn modes_behind(&mut self, place: &Self::Place, motion: &[f64]) -> Option<Vec<i32>>;
+
+    /// The modes on both sides of a place along a motion (nv): first ahead, then back.
+    fn sides(&mut self, place: &Self::Place, motion: &[f64]) -> [Option<Vec<i32>>; 2] {
+        let (laws, length) = (self.laws(), self.length(motion));
+        [SHIFT, -SHIFT].map(|shift| {
+            let shift = if length > 0.0 { shift / length } else { return None };
+            let there = self.modes_behind(place, &motion.iter().map(|x| x * shift).collect::<Vec<f64>>())?;
+            let mut modes = Self::modes(place).to_vec();
+            laws.iter().for_each(|&switch| modes[switch] = there[switch]);
+            Some(modes)
+        })
+    }
+
+    /// Whether a motion (nv), or the opposite one, leads into the side that a place is taken to be on.
+    fn enters(&mut self, place: &Self::Place, motion: &[f64]) -> bool {
+        self.sides(place, motion).iter().any(|side| side.as_deref() == Some(Self::modes(place)))
+    }
+
+    /// The sense of a motion (nv) that leads into that side: −1 where only the opposite one does.
+    fn sense(&mut self, place: &Self::Place, motion: &[f64]) -> f64 {
+        if self.laws().is_empty() {
+            return 1.0;
+        }
+        let [ahead, back] = self.sides(place, motion).map(|side| side.as_deref() == Some(Self::modes(place)));
+        if back && !ahead { -1.0 } else { 1.0 }
+    }
+
+    /// The modes of the other sides of a place along motions (nv each), each set once.
+    fn other_sides(&mut self, place: &Self::Place, motions: impl IntoIterator<Item = Vec<f64>>) -> Vec<Vec<i32>> {
+        if self.laws().is_empty() {
+            return Vec::new();
+        }
+        let mut sides: Vec<Vec<i32>> = motions.into_iter().flat_map(|motion| self.sides(place, &motion)).flatten().collect();
+        sides.sort();
+        sides.dedup();
+        sides.retain(|modes| modes != Self::modes(place));
+        sides
+    }
+}
+
+fn laws<G: Space>(mechanism: &Mechanism<G>) -> Vec<usize> {
     mechanism.programs().iter().flat_map(|staged| staged.program.switches().iter().map(|switch| *switch as usize)).collect()
 }
 
-/// `modes` with those of the laws' switches as they are in `there`.
-fn with_laws(laws: &[usize], modes: &[i32], there: &[i32]) -> Vec<i32> {
-    let mut modes = modes.to_vec();
-    laws.iter().for_each(|&switch| modes[switch] = there[switch]);
-    modes
+impl<G: Space<S = f64>> Leaving for Rest<'_, G> {
+    type Place = Pose;
+
+    fn laws(&self) -> Vec<usize> {
+        laws(self.system.dynamics.mechanism)
+    }
+
+    fn length(&self, motion: &[f64]) -> f64 {
+        self.measure(&DVector::from_column_slice(motion))
+    }
+
+    fn modes(place: &Pose) -> &[i32] {
+        &place.position.modes
+    }
+
+    fn modes_behind(&mut self, place: &Pose, motion: &[f64]) -> Option<Vec<i32>> {
+        Some(self.moved(place, motion).ok()?.position.modes)
+    }
 }
 
-impl<G> Rest<'_, G>
-where
-    G: Space<S = f64>,
-{
+impl<G: Space<S = f64>> Leaving for Sinking<'_, G> {
+    type Place = Stand;
+
+    fn laws(&self) -> Vec<usize> {
+        laws(self.rest.system.dynamics.mechanism)
+    }
+
+    fn length(&self, motion: &[f64]) -> f64 {
+        self.measure(motion)
+    }
+
+    fn modes(place: &Stand) -> &[i32] {
+        &place.position.modes
+    }
+
+    fn modes_behind(&mut self, place: &Stand, motion: &[f64]) -> Option<Vec<i32>> {
+        Some(self.moved(place, motion).ok()?.position.modes)
+    }
+}
+
+impl<G: Space<S = f64>> Rest<'_, G> {
     /// A pose with its stability, whatever its balance; in a kink by its decisive side.
     pub(super) fn judged(&mut self, pose: Pose) -> Result<Found, Ended> {
-        let own = self.judged_by_its_side(pose)?;
-        let laws = switches(self.system.dynamics.mechanism);
-        let mut sides: Vec<Vec<i32>> = Vec::new();
-        if !laws.is_empty() {
-            for y in weights(own.pose.basis.ncols()) {
-                sides.extend(self.sides(&own.pose, &DVector::from_vec(y), &laws));
-            }
-        }
-        sides.sort();
-        sides.dedup();
-        sides.retain(|modes| *modes != own.pose.position.modes);
-        if sides.is_empty() {
-            return Ok(own);
-        }
-        let mut all = vec![own];
-        for modes in sides {
+        let mut all = vec![self.judged_by_its_side(pose)?];
+        let basis = all[0].pose.basis.clone();
+        let motions = weights(basis.ncols()).map(|y| (&basis * DVector::from_vec(y)).as_slice().to_vec());
+        for modes in self.other_sides(&all[0].pose, motions) {
             let mut pose = all[0].pose.clone();
             pose.position.modes = modes;
             all.push(self.judged_by_its_side(pose)?);
         }
+        if all.len() == 1 {
+            return Ok(all.remove(0));
+        }
         let of = |found: &Found| Side {
             negative: found.stability.negative,
             zero: found.stability.zero,
-            is_entered: self.sides(&found.pose, &found.stability.falls, &laws).contains(&found.pose.position.modes),
+            is_entered: self.enters(&found.pose, (&found.pose.basis * &found.stability.falls).as_slice()),
         };
         let chosen = decisive(&all.iter().map(of).collect::<Vec<_>>());
         Ok(all.swap_remove(chosen))
-    }
-
-    /// The sense of a motion (nv) that leads into the side of a pose: −1 where only the opposite one does.
-    pub(super) fn sense(&mut self, pose: &Pose, motion: &DVector<f64>) -> f64 {
-        let shift = SHIFT / self.measure(motion);
-        let laws = switches(self.system.dynamics.mechanism);
-        let mut enters = |shift: f64| {
-            let there = self.moved(pose, (motion * shift).as_slice());
-            there.is_ok_and(|there| with_laws(&laws, &pose.position.modes, &there.position.modes) == pose.position.modes)
-        };
-        if laws.is_empty() || enters(shift) || !enters(-shift) { 1.0 } else { -1.0 }
-    }
-
-    /// The modes on both sides of a pose along a motion in its basis.
-    fn sides(&mut self, pose: &Pose, y: &DVector<f64>, laws: &[usize]) -> Vec<Vec<i32>> {
-        let delta = &pose.basis * y;
-        let shift = SHIFT / self.measure(&delta);
-        let there = [shift, -shift].map(|shift| self.moved(pose, (&delta * shift).as_slice()).ok());
-        there.into_iter().flatten().map(|there| with_laws(laws, &pose.position.modes, &there.position.modes)).collect()
-    }
-}
-
-impl<G> Sinking<'_, G>
-where
-    G: Space<S = f64>,
-{
-    /// The modes of other sides of a stand.
-    pub(super) fn other_sides(&mut self, stand: &Stand) -> Vec<Vec<i32>> {
-        let laws = switches(self.rest.system.dynamics.mechanism);
-        let mut sides: Vec<Vec<i32>> = Vec::new();
-        if !laws.is_empty() {
-            for y in weights(self.metric.len()) {
-                let delta: Vec<f64> = y.iter().zip(&self.rest.unit).map(|(y, unit)| y * unit).collect();
-                sides.extend(self.sides(stand, &delta, &laws));
-            }
-        }
-        sides.sort();
-        sides.dedup();
-        sides.retain(|modes| *modes != stand.position.modes);
-        sides
-    }
-
-    /// The sense of a motion (nv) that leads into the side of a stand: −1 where only the opposite one does.
-    pub(super) fn sense(&mut self, stand: &Stand, motion: &[f64]) -> f64 {
-        let shift = SHIFT / self.measure(motion);
-        let laws = switches(self.rest.system.dynamics.mechanism);
-        let mut enters = |shift: f64| {
-            let there = self.moved(stand, &motion.iter().map(|x| x * shift).collect::<Vec<f64>>());
-            there.is_ok_and(|there| with_laws(&laws, &stand.position.modes, &there.position.modes) == stand.position.modes)
-        };
-        if laws.is_empty() || enters(shift) || !enters(-shift) { 1.0 } else { -1.0 }
-    }
-
-    /// Whether a motion (nv) leads into the side of a stand.
-    pub(super) fn enters(&mut self, stand: &Stand, motion: &[f64]) -> bool {
-        let laws = switches(self.rest.system.dynamics.mechanism);
-        self.sides(stand, motion, &laws).contains(&stand.position.modes)
-    }
-
-    /// The modes on both sides of a stand along a motion (nv).
-    fn sides(&mut self, stand: &Stand, motion: &[f64], laws: &[usize]) -> Vec<Vec<i32>> {
-        let shift = SHIFT / self.measure(motion);
-        let there = [shift, -shift].map(|shift| self.moved(stand, &motion.iter().map(|x| x * shift).collect::<Vec<f64>>()).ok());
-        there.into_iter().flatten().map(|there| with_laws(laws, &stand.position.modes, &there.position.modes)).collect()
     }
 }
 

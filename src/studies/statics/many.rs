@@ -4,7 +4,7 @@
 //! Newton's method from places all over the motion, and further equilibria, are not tried.
 
 use super::explain::{Names, undefined, verdict};
-use super::kinks::{Side, decisive};
+use super::kinks::{Leaving, Side, decisive};
 use super::report::{Report, Told, not_stable, one_equilibrium, without_friction};
 use super::rest::{Lost, Position, Rest, Still};
 use super::search::Ended;
@@ -27,6 +27,7 @@ use crate::studies::common::case::Case;
 use crate::studies::common::indeterminate::open;
 use crate::studies::common::observe::Observer;
 use crate::studies::common::outcome::Outcome;
+use crate::studies::common::sides::weights;
 use crate::studies::common::watched::Watched;
 use crate::studies::dynamics::system::Mechanical;
 
@@ -227,7 +228,9 @@ where
     /// A stand with its stability; in a kink by its decisive side.
     fn judged(&mut self, stand: Stand, stop: &dyn Fn() -> bool) -> Result<Found, Failure> {
         let mut all = vec![self.judged_by_its_side(stand, stop)?];
-        for modes in self.sinking.other_sides(&all[0].stand) {
+        let unit = self.sinking.rest.unit.clone();
+        let motions = weights(unit.len()).map(|y| y.iter().zip(&unit).map(|(y, unit)| y * unit).collect());
+        for modes in self.sinking.other_sides(&all[0].stand, motions) {
             let mut stand = all[0].stand.clone();
             stand.position.modes = modes;
             all.push(self.judged_by_its_side(stand, stop)?);
