@@ -65,10 +65,15 @@ pub fn write_dxf(drawing: &Drawing) -> String {
         let pin = |scene: &mut Sheet| {
             if symbol.kind == SymbolKind::Slide {
                 signs.slider(scene, &placement, &LINES);
+            } else if symbol.kind == SymbolKind::Plane {
+                signs.plane(scene, &placement, LINES.fill, &LINES);
             }
             signs.pin(scene, symbol.kind, &placement, &LINES);
             if symbol.turns {
                 signs.thread(scene, &placement, &LINES);
+            }
+            if symbol.rings {
+                signs.ring(scene, &placement, &LINES);
             }
         };
         signed(&mut out, Layer::Joints, &back, mm, pin);
@@ -175,5 +180,17 @@ mod tests {
             assert!((number(&w[2]) - number(&w[4])).abs() - 250.0 < 1e-6 && (number(&w[3]).abs() - 10.0).abs() < 1e-6, "{w:?}");
         }
         assert!(text.contains("A\\U+03B8") && text.ends_with("EOF\n") && text.is_ascii());
+    }
+
+    #[test]
+    fn planes_and_rings_have_their_lines() {
+        let placement = Placement { along: [0.0, 1.0], across: [[1.0, 0.0], [0.0, 0.4]], ..Placement::default() };
+        let of = |kind, rings| {
+            let joint = Symbol { kind, rings, poses: vec![placement], ..Symbol::default() };
+            let text = write_dxf(&Drawing { joints: vec![joint], ..Drawing::default() });
+            text.lines().filter(|line| line.trim() == "POLYLINE").count()
+        };
+        assert_eq!(of(SymbolKind::Plane, false), 1);
+        assert_eq!(of(SymbolKind::Slide, true), of(SymbolKind::Slide, false) + 1);
     }
 }

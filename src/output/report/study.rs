@@ -229,8 +229,8 @@ fn drawing(scene: &Scene) -> Value {
 }
 
 /// Adds to joints what figures make of them: the sense of a drive; of a hinge with stops their directions in its first body, in the plane
-/// rad, and the angle between them; of a slide how far the body that slides reaches beyond its point, m: to its stops, and back to its dashpot; whether a bearing
-/// stands above its hinge, and a slot has a frame.
+/// rad, and the angle between them; of a slide how far the body that slides reaches beyond its point, m: to its stops, and back to its
+/// dashpot, and whether areas hide it; whether a bearing stands above its hinge, and a slot has a frame.
 fn signs(value: &mut Value, scene: &Scene) {
     let Some(first) = scene.frames.at.first() else { return };
     let drawn = posed::at(scene, *first);
