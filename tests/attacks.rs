@@ -11,6 +11,7 @@ mod files;
 mod formula;
 mod friction;
 mod kills;
+mod legs;
 mod masses;
 mod mechanisms;
 mod motion;

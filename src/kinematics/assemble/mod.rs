@@ -12,6 +12,7 @@
 //! (`nearest.rs`). Next to a change point positions are moved into it (`sharpen.rs`). Velocities follow linearly, by the same order: constraints and exact values, guesses, rest; where branches cross,
 //! on one of these (`cone.rs`, `branch.rs`).
 
+mod balls;
 mod begun;
 mod branch;
 mod carry;

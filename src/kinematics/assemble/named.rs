@@ -1,5 +1,5 @@
-//! Coordinates that asked values name: those asked for themselves, and hinges of the plane that an asked angle leaves as the only unknown
-//! between its bodies.
+//! Coordinates that asked values name: those asked for themselves, those that a law of a driver puts somewhere, and hinges of the plane that
+//! an asked angle leaves as the only unknown between its bodies.
 //!
 //! What is named needs no search. Along a chain of n bodies whose angles are all asked, rows of the search would have n²/2 entries.
 
@@ -8,7 +8,7 @@ use crate::geometry::Space;
 use crate::mechanism::{Asked, Measured, Mechanism, Step};
 
 impl<G: Space<S = f64>> System<'_, G> {
-    /// Coordinates that asked values name take the values that these give them.
+    /// Coordinates that asked values name take the values that these give them; a driver's law comes before a value of `start`.
     pub(super) fn take_named(&mut self, q: &mut [f64]) {
         let m = self.dynamics.mechanism;
         for start in &m.starts {
@@ -16,6 +16,15 @@ impl<G: Space<S = f64>> System<'_, G> {
             if let Measured::Coordinate { along, .. } = m.gauges[gauge].measured {
                 q[along.q] = start.value;
                 self.named[along.v] = Some(if start.guess { Named::ByGuess } else { Named::Exactly });
+            }
+        }
+        for drive in m.drives.iter().filter(|drive| !m.rows[drive.row].anchored) {
+            let at = self.dynamics.work.motions[drive.output];
+            if let Measured::Coordinate { along, .. } = m.gauges[drive.gauge].measured
+                && at.is_finite()
+            {
+                q[along.q] = at;
+                self.named[along.v] = Some(Named::Exactly);
             }
         }
         self.evaluate(q);

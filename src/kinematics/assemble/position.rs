@@ -34,6 +34,7 @@ pub(super) fn position<G: Space<S = f64>>(mechanism: &Mechanism<G>) -> Result<(V
     let mut system = System::new(mechanism);
     let mut q = mechanism.drawn();
     system.name(&mut q);
+    system.turn_balls(&mut q);
     system.pull(&mut q);
     let guessed = q.clone();
     let mut closed = system.close(&mut q);
