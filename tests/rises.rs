@@ -62,3 +62,45 @@ studies: { s: { inverse: { over: 7 s, samples: 40 }, columns: [time, S.position]
     verdict.close("integral", "S.position", sum, 0.3 * 0.5_f64.powi(4) / 4.0, 1e-12);
     verdict.give("law");
 }
+
+/// A law of a driver, and the same by hand, m by s.
+type Law = (&'static str, fn(f64) -> f64);
+
+/// A slide that a law drives over a range of its own.
+fn over_a_law(law: &str) -> String {
+    format!(
+        "grashof: 1
+name: law
+space: planar
+gravity: none
+bodies: {{ a: {{ mass: 2 kg }} }}
+joints: {{ S: {{ slider: [ground, a.origin], axis: [1, 0] }} }}
+drivers: {{ x: {{ joint: S, position: \"{law}\" }} }}
+studies: {{ s: {{ inverse: {{ over: 2.5 m, samples: 50 }}, columns: [S.position, time] }} }}
+"
+    )
+}
+
+#[test]
+fn a_range_of_a_driver_follows_its_law() {
+    // each begins with 1 m/s and without acceleration, and is so again after 1 s
+    let laws: [Law; 3] = [
+        ("1 m/s*t", |t| t),
+        ("1 m/s*t + 0.2 m*sin(pi*t/1 s)^3", |t| t + 0.2 * (std::f64::consts::PI * t).sin().powi(3)),
+        ("if(t < 2 s, 1 m/s*t, 2 m + 2 m/s*(t - 2 s))", |t| t.max(2.0 * t - 2.0)),
+    ];
+    let mut verdict = Verdict::default();
+    for (law, x) in laws {
+        let table = run_text(&over_a_law(law), &["--no-plots"]).succeeded().table("s");
+        verdict.close("end", law, table.rows.last().expect("rows")[0], 2.5, 1e-13);
+        for row in &table.rows {
+            verdict.close("law", law, row[0], x(row[1]), 1e-12);
+        }
+    }
+    verdict.give("range of a law");
+    let rests = run_text(&over_a_law("if(t < 2 s, 1 m/s*t, 2 m)"), &["--no-plots"]);
+    assert_eq!(rests.code, 2, "{}", rests.stdout);
+    for part in ["the driver never gets so far, but 2 m at most", "over: 2.5 m"] {
+        assert!(rests.stderr.contains(part), "{part}: {}", rests.stderr);
+    }
+}

@@ -93,6 +93,8 @@ pub struct Drive {
     pub output: usize,
     /// The speed if it is constant: f = speed · t needs no program.
     pub speed: Option<f64>,
+    /// Whether its speed is the same at all times.
+    pub steady: bool,
     /// True if an angle is driven.
     pub turns: bool,
 }

@@ -53,6 +53,14 @@ pub struct Study {
     pub place: Place,
 }
 
+impl Study {
+    /// Where a key of its kind stands: `studies.turn.kinematics.over`.
+    #[must_use]
+    pub fn place_of(&self, key: &str) -> Place {
+        format!("{}.{}.{key}", self.place, self.kind.name())
+    }
+}
+
 words! {
     /// A side from which a drawing in space is seen, with `up` upwards (z if that is x, y or z by turns).
     pub enum Side {

@@ -108,12 +108,8 @@ pub(crate) fn clock<G: Space<S = f64>>(
     start: &Assembled,
     range: &Range,
 ) -> Result<Clock, Failure> {
-    let fault = |message: String, help: &str| Failure::Study {
-        code: "range",
-        message,
-        place: format!("{}.over", case.study.place),
-        help: help.into(),
-    };
+    let fault =
+        |message: String, help: &str| Failure::Study { code: "range", message, place: case.study.place_of("over"), help: help.into() };
     match range.over {
         Over::Time(id) => {
             let length = case.value(id);
@@ -139,7 +135,7 @@ pub(crate) fn clock<G: Space<S = f64>>(
             dynamics.time(0.0, &modes);
             dynamics.position(&start.q, &modes);
             let from = dynamics.work.readings[drive.gauge].x;
-            Clock::of_driver(&mut dynamics, &mut modes, drive.output, from, length)
+            Clock::of_driver(&mut dynamics, &mut modes, drive, from, length)
                 .map_err(|e| fault(e.0, "give the range as a time, as `over: 2 s`"))
         }
     }
@@ -413,7 +409,7 @@ fn backwards<G: Space<S = f64>>(case: Case<'_>, motion: &Motion<'_, G>, name: &s
             six_digits(motion.clock.value(motion.clock.length) * unit.0),
             unit.1
         ),
-        path: format!("{}.over", case.study.place),
+        path: case.study.place_of("over"),
     })
 }
 

@@ -39,7 +39,7 @@ pub(super) fn turns_fully<G: Space<S = f64>>(
         return 1.0;
     }
     let turn = TAU.copysign(clock.end());
-    let Ok(whole) = Clock::of_driver(&mut dynamics, &mut modes, drive.output, 0.0, turn) else { return f64::NAN };
+    let Ok(whole) = Clock::of_driver(&mut dynamics, &mut modes, drive, 0.0, turn) else { return f64::NAN };
     let observer = Observer::new(case.model, mechanism, case.parameters, &[]);
     match Motion::trace(mechanism, start, whole, observer, 0) {
         Ok(motion) if motion.path.gap.is_some() || motion.path.jump.is_some() => f64::NAN,

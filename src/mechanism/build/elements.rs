@@ -107,6 +107,8 @@ impl<G: Space> Builder<'_, G> {
             Motion::Speed(speed) => Some(self.number(speed, place)),
             _ => None,
         };
+        let rate = self.time[output + 1].value;
+        let steady = self.pool.inputs_of(&[rate]).is_empty() && self.pool.switches_of(&[rate]).is_empty();
         let anchored = !matches!(driver.motion, Motion::Position(_));
         let turns = self.mechanism.gauges[gauge].turns();
         self.row(Row {
@@ -117,7 +119,8 @@ impl<G: Space> Builder<'_, G> {
             anchored,
             angular: turns,
         });
-        self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row: self.mechanism.rows.len() - 1, output, speed, turns });
+        let row = self.mechanism.rows.len() - 1;
+        self.mechanism.drives.push(Drive { name: driver.name.clone(), gauge, row, output, speed, steady, turns });
     }
 
     /// The output of the time program that is an expression of time; its first two rates follow.

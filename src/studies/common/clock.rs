@@ -4,7 +4,7 @@ use super::reach::{NeverThere, reached};
 use crate::dynamics::Dynamics;
 use crate::expression::Dimension;
 use crate::geometry::Space;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Drive, Mechanism};
 use crate::numerics::root::root;
 use crate::results::six_digits;
 use std::convert::Infallible;
@@ -88,35 +88,31 @@ impl Clock {
     }
 
     /// A range of a driver's coordinate, in the direction in which the driver moves at the start (the other one if the range is
-    /// negative). `output` is that of the driver's law, `from` its coordinate at the start.
+    /// negative), `from` being its coordinate at the start.
     ///
     /// # Errors
     /// If the law stands still at its start or turns back before the range is done.
     pub fn of_driver<G: Space<S = f64>>(
         dynamics: &mut Dynamics<'_, G>,
         modes: &mut [i32],
-        output: usize,
+        drive: &Drive,
         from: f64,
         length: f64,
     ) -> Result<Self, NeverThere> {
-        let mut law = |t: f64| {
-            dynamics.follow_time(t, modes);
-            [0, 1, 2].map(|k| dynamics.work.motions[output + k])
-        };
-        let backwards = if length < 0.0 { -1.0 } else { 1.0 };
-        let length = length.abs();
-        let [f0, speed, rate] = law(0.0);
-        if speed != 0.0 && rate == 0.0 && law(1.0)[1] == speed && law(-7.0)[1] == speed {
-            let end = backwards * length / speed.abs();
-            let direction = backwards * speed.signum();
-            return Ok(Self { from, direction, length, driver: Some(output), speed: Some(backwards * speed.abs()), end });
-        }
-        let turns = dynamics.mechanism.drives.iter().any(|drive| drive.output == output && drive.turns);
+        let output = drive.output;
         let mut law = |t: f64| {
             dynamics.follow_time(t, modes);
             [0, 1].map(|k| dynamics.work.motions[output + k])
         };
-        let end = reached(&mut law, backwards, length, |x| told_coordinate(x, turns))?;
+        let backwards = if length < 0.0 { -1.0 } else { 1.0 };
+        let length = length.abs();
+        let [f0, speed] = law(0.0);
+        if drive.steady && speed != 0.0 {
+            let end = backwards * length / speed.abs();
+            let direction = backwards * speed.signum();
+            return Ok(Self { from, direction, length, driver: Some(output), speed: Some(backwards * speed.abs()), end });
+        }
+        let end = reached(&mut law, backwards, length, |x| told_coordinate(x, drive.turns))?;
         let direction = (law(end)[0] - f0).signum();
         Ok(Self { from, direction, length, driver: Some(output), speed: None, end })
     }

@@ -59,7 +59,7 @@ pub(super) fn reached(
         }
         (low, high) = (high, high * GROWTH);
         if high > FARTHEST {
-            return Err(NeverThere("the driver never gets so far".into()));
+            return Err(NeverThere(format!("the driver never gets so far, but {} at most", told(way * gone))));
         }
     }
     // where it comes to rest at the length it has gone so far when it rests

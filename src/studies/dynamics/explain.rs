@@ -316,10 +316,5 @@ pub(super) fn no_chart(study: &Study, why: &Refused) -> Failure {
         ),
         Refused::Open => ("the loops cannot be closed at the start", "look at `grashof check`"),
     };
-    Failure::Study {
-        code: "no-minimal-coordinates",
-        message: message.into(),
-        place: format!("{}.coordinates", study.place),
-        help: help.into(),
-    }
+    Failure::Study { code: "no-minimal-coordinates", message: message.into(), place: study.place_of("coordinates"), help: help.into() }
 }

@@ -249,7 +249,7 @@ fn check_rows(study: &Study, plan: &setup::Plan, columns: usize) -> Result<(), F
     Err(Failure::Study {
         code: "too-many-rows",
         message: format!("the study asks for {rows:.3e} rows of {columns} numbers"),
-        place: format!("{}.{key}", study.place),
+        place: study.place_of(key),
         help: format!("ask for a longer output step, as `every: {}`", plan.until / 1000.0),
     })
 }

@@ -94,7 +94,7 @@ pub(super) fn plan(case: Case<'_>, forward: &Forward) -> Result<Plan, Failure> {
         return Err(Failure::Study {
             code: "no-ida",
             message: "the integrator `ida` (SUNDIALS) is not part of this program".into(),
-            place: format!("{}.integrator", study.place),
+            place: study.place_of("integrator"),
             help: "build it with `cargo build --release --features sundials` (needs cmake, make and clang), or use `bdf`".into(),
         });
     }

@@ -194,7 +194,7 @@ pub(super) fn not_driven(search: &Search<'_>) -> Failure {
             "time acts on the mechanism (a driver, or an expression of `t`), but `{}` advances as the motion lets it",
             search.over
         ),
-        place: format!("{}.periodic.over", search.study.place),
+        place: search.study.place_of("over"),
         help: "count the period of the forcing, as `over: t, by: 20 ms`".into(),
     }
 }
@@ -205,7 +205,7 @@ pub(super) fn not_repeated(search: &Search<'_>, t: f64, periods: u32) -> Failure
     Failure::Study {
         code: "not-periodic",
         message: format!("what acts on the mechanism at t = {t:.6} s acts in another way {later} later"),
-        place: format!("{}.periodic.over", search.study.place),
+        place: search.study.place_of("over"),
         help: "give the period of drivers and loads, or remove what depends on time in another way".into(),
     }
 }
@@ -225,7 +225,7 @@ pub(super) fn turns_back(search: &Search<'_>, t: f64) -> Failure {
     Failure::Study {
         code: "turns-back",
         message: format!("`{}` turns back at t = {t:.6} s of the period, so columns cannot be given over it", search.over),
-        place: format!("{}.periodic.over", search.study.place),
+        place: search.study.place_of("over"),
         help: "let something else advance, that never turns back; if the period is known, `over: t`, else `over: t` with `through`".into(),
     }
 }
