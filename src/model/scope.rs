@@ -115,9 +115,26 @@ impl View<'_, '_, '_> {
         }
     }
 
+    /// Whether what is read is a scalar, outside of its functionals.
+    fn in_scalar(&self) -> bool {
+        self.local.functionals.is_some() && self.outside.is_none()
+    }
+
+    /// A constant, unless it is a scalar's and an event changes it during the study.
+    fn admit_constant(&mut self, pool: &Pool, path: &str, symbol: Symbol) -> Result<Symbol, Unknown> {
+        if !self.in_scalar() || !self.local.functionals.as_ref().is_some_and(|of| of.states) {
+            return Ok(symbol);
+        }
+        let used: Vec<usize> = pool.parameters_of(&[symbol.id]).into_iter().map(|parameter| parameter as usize).collect();
+        let Some(event) = self.name_space.model.event_that_sets(&used) else { return Ok(symbol) };
+        let found = format!("`{path}` changes during the study, by the event `{}`", event.name);
+        let help = Some(format!("take one number of it: `last({path})`, `max({path})`, or `value({path}, 0 s)` at the start"));
+        Err(self.refuse("varies", unknown(found, "one number for the whole study", help)))
+    }
+
     fn admit(&mut self, path: &str, (symbol, reach): (Symbol, Needs)) -> Result<Symbol, Unknown> {
         let allow = self.allow;
-        let in_scalar = self.local.functionals.is_some() && self.outside.is_none();
+        let in_scalar = self.in_scalar();
         if reach.level > allow.level {
             let is = match reach.level {
                 Known::Constant | Known::Time => format!("`{path}` varies in time"),
@@ -180,13 +197,19 @@ impl Scope for View<'_, '_, '_> {
         match self.name_space.names.get(path).copied() {
             Some(Entity::Parameter(i)) => {
                 return match self.name_space.parameters.get(i).copied().flatten() {
-                    Some(dimension) => Ok(Symbol { id: pool.parameter(i as u32), dimension }),
+                    Some(dimension) => {
+                        let symbol = Symbol { id: pool.parameter(i as u32), dimension };
+                        self.admit_constant(pool, path, symbol)
+                    }
                     None => Err(silent()),
                 };
             }
             Some(Entity::Measure(i)) => {
                 return match self.name_space.measures.get(i).copied().flatten() {
-                    Some(measure) => self.admit(path, measure),
+                    Some(measure) => {
+                        let symbol = self.admit(path, measure)?;
+                        self.admit_constant(pool, path, symbol)
+                    }
                     // before the measures are lowered only parameters may be named
                     None if self.allow.level <= Known::Time => {
                         let may = if self.allow.level == Known::Time { "`t` and parameters" } else { "parameters" };

@@ -83,6 +83,11 @@ impl Model {
         self.checks.shrink_to_fit();
     }
 
+    /// The event that changes one of some parameters, if there is one.
+    pub(super) fn event_that_sets(&self, parameters: &[usize]) -> Option<&Event> {
+        self.events.iter().find(|event| event.set.iter().any(|(parameter, _)| parameters.contains(parameter)))
+    }
+
     /// A parameter that is set from outside although the study varies it.
     #[must_use]
     pub fn set_and_varied(&self) -> Option<&str> {

@@ -1,6 +1,7 @@
 //! Text → `serde_yaml::Value` in one pass over the events of an exact YAML parser: what could blow up, or means something else
 //! to another reader of YAML, is refused with its place as soon as it is read.
 
+use super::commas;
 use super::fault::{Fault, Spot};
 use super::spans::{Spans, byte_of};
 use saphyr_parser::{Event, Parser, ScalarStyle};
@@ -308,12 +309,23 @@ fn twice(text: &str, at: Spot) -> Vec<Fault> {
         // the same number, written in two ways
         return vec![fault("", at)];
     }
-    let shown = |(first, second, key): (_, _, String)| {
-        let mut fault = fault(&key, Spot::Bytes(second));
-        fault.other = Some((first, "first here".to_owned()));
-        fault
-    };
-    found.into_iter().map(shown).collect()
+    let mut faults = Vec::new();
+    let mut cut = Vec::new();
+    for (first, second, key) in found {
+        // `{ a: max(x, 1), b: max(y, 1) }` has the key `1)` twice
+        for place in [&first, &second].into_iter().filter(|_| commas::ends_a_call(&key)) {
+            if !cut.contains(place) {
+                cut.push(place.clone());
+                faults.push(commas::comma_before(text, place.clone()));
+            }
+        }
+        if !commas::ends_a_call(&key) {
+            let mut fault = fault(&key, Spot::Bytes(second));
+            fault.other = Some((first, "first here".to_owned()));
+            faults.push(fault);
+        }
+    }
+    faults
 }
 
 #[cfg(test)]

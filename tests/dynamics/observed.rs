@@ -98,3 +98,35 @@ fn a_switch_that_changes_too_fast_follows_its_values() {
     let (right, all) = clear.fold((0, 0), |(right, all), (x, side)| (right + usize::from((1e7 * x).sin().signum() == *side), all + 1));
     assert!(right == all && all > 100, "{right} of {all}");
 }
+
+#[test]
+fn a_parameter_that_an_event_sets_is_a_column() {
+    let text = "grashof: 1
+name: slide
+space: planar
+gravity: none
+parameters: { push: 1 N }
+bodies: { a: { mass: 2 kg } }
+joints: { S: { slider: [ground, a.origin], axis: [1, 0] } }
+loads: { f: { at: a.origin, force: [push, 0] } }
+events: { far: { when: S.position - 10 cm, set: { push: 5 N } } }
+studies:
+  go:
+    dynamics: { until: 1 s, every: 0.1 s }
+    columns: [time, push]
+    scalars: { early: \"value(push, 0 s)\", late: last(push), impulse: integral(push) }
+";
+    let run = run_text(text, &["--no-plots"]).succeeded();
+    let json = run.json("go");
+    let mut verdict = Verdict::default();
+    // 10 cm of 0.5 m/s²
+    let hit = 0.4_f64.sqrt();
+    for (name, right) in [("early", 1.0), ("late", 5.0), ("impulse", 5.0 - 4.0 * hit)] {
+        verdict.close(name, "go", json["scalars"][name].as_f64().unwrap_or(f64::NAN), right, 1e-9);
+    }
+    let beside = |row: &&Vec<f64>| (row[0] - hit).abs() > 1e-9;
+    for row in run.table("go").rows.iter().filter(beside) {
+        verdict.close("row", "go", row[1], if row[0] < hit { 1.0 } else { 5.0 }, 0.0);
+    }
+    verdict.give("set parameter");
+}

@@ -162,13 +162,7 @@ impl<'m, G: Space> Builder<'m, G> {
             let quantity = self.inputs[input as usize];
             match self.leaf(quantity) {
                 Some(leaf) => fills.push((input as usize, leaf)),
-                None => self.fault(
-                    "not-usable",
-                    "loads",
-                    format!("a load, spring, coupling or motor uses `{}`", self.model.name_of(quantity)),
-                    "positions and velocities of bodies and joints",
-                    Some("use coordinates or rates of bodies and joints instead".into()),
-                ),
+                None => self.not_usable(quantity, &outputs, input),
             }
         }
         StagedProgram {
@@ -178,6 +172,20 @@ impl<'m, G: Space> Builder<'m, G> {
             outputs: outputs.len(),
             places: outputs.into_iter().map(|o| o.place).collect(),
         }
+    }
+
+    /// Faults a quantity that is computed behind the programs, where one of their outputs uses it.
+    fn not_usable(&mut self, quantity: Quantity, outputs: &[Output], input: u32) {
+        let user = outputs.iter().find(|output| self.pool.inputs_of(&[output.value]).contains(&input));
+        let place = user.map_or("loads", |output| &output.place);
+        let help = match quantity {
+            Quantity::SpringForce { spring } | Quantity::SpringEnergy { spring } => {
+                format!("write it by `{}.stretch`, as the law of the spring does", self.model.springs[spring].name)
+            }
+            _ => "use coordinates or rates of bodies and joints instead".to_owned(),
+        };
+        let expected = "positions and velocities of bodies and joints, stretches of springs, states";
+        self.fault("not-usable", place, format!("`{}` cannot act back on the motion", self.model.name_of(quantity)), expected, Some(help));
     }
 
     /// Faults outputs that are undefined whatever the motion: they depend on constants alone.

@@ -192,7 +192,7 @@ impl<'n> Decoder<'n> {
             }
         }
         match self.name_space.names.get(text) {
-            Some(Entity::Parameter(_)) => {
+            Some(Entity::Parameter(i)) if !(frame.features.states && self.name_space.model.event_that_sets(&[*i]).is_some()) => {
                 let fault = self.fault("wrong-column", at, format!("`{text}` is a parameter"), "something that varies during the study");
                 fault.help = Some("parameters are in the JSON; to plot one, make it a measure".to_owned());
                 return Vec::new();
