@@ -87,6 +87,8 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
             let (g, scale) = rows(mechanism, q, &start.modes, &start.metric);
             remaining(mechanism, q, start, &Rank::new(&g, &start.metric, &scale, RANK_TOLERANCE))
         });
+        // the count of the joints is that of the drivers: only this place has more motions
+        let in_line = drivers > 0 && loose.is_empty() && i64::try_from(drivers) == Ok(m.grubler);
         let kind = match study.kind {
             Kind::Kinematics(_) => "kinematics",
             Kind::Balance { .. } => "balance",
@@ -95,7 +97,7 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
         return Err(Failure::Study {
             code: "under-constrained",
             message: format!(
-                "the mechanism has {} degree{} of freedom{} and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}",
+                "the mechanism has {} degree{} of freedom{} and {drivers} driver{}: {} left undetermined for a study of the kind `{kind}`{}{}",
                 m.freedom,
                 plural(m.freedom),
                 match m.freedom - m.undriven {
@@ -104,10 +106,16 @@ pub(crate) fn drivers_fit<G: Space<S = f64>>(
                 },
                 plural(drivers),
                 if m.left == 1 { "one is".into() } else { format!("{} are", m.left) },
-                remaining.as_ref().map_or_else(|| in_no_joint(&loose), |remaining| remaining.words.clone())
+                remaining.as_ref().map_or_else(|| in_no_joint(&loose), |remaining| remaining.words.clone()),
+                if in_line {
+                    format!("; Grübler's count is {drivers}: where links lie in a line, they can move as they do nowhere else")
+                } else {
+                    String::new()
+                }
             ),
             place: if drivers == 0 { study.place.clone() } else { "drivers".into() },
             help: match (loose.first(), remaining.and_then(|remaining| remaining.help)) {
+                _ if in_line => "begin where no links lie in a line; if they do not, add a driver, or a joint".into(),
                 (Some(body), _) => format!("give `{body}` a joint, or remove it"),
                 (None, Some(help)) => help,
                 (None, None) => "add a driver, as `drivers: { drive: { joint: O, speed: 60 rpm } }`, or a joint".into(),

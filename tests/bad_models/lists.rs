@@ -258,6 +258,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
         NotBegun,
         &[
             "unclosable-loop",
+            "driver-out-of-reach",
             "link-too-long",
             "body-without-joint",
             "exact-start-cannot-hold",
@@ -269,6 +270,7 @@ pub(super) const FILES: &[(End, &[&str])] = &[
             "coupling-of-time-beside-a-driver",
             "no-driver",
             "freedom-left",
+            "begun-in-a-line",
             "periodic-forced",
             "universal-not-crossed",
             "friction-bristle-in-inverse",

@@ -26,11 +26,16 @@ impl<G: Space<S = f64>> System<'_, G> {
         let loops = self.open_loops();
         let mut parts: Vec<String> = loops.iter().map(OpenLoop::words).collect();
         let (m, w) = (self.dynamics.mechanism, &self.dynamics.work);
-        for (row, phi) in m.rows.iter().zip(&w.phi) {
-            if !row.anchored && !matches!(row.owner, RowOwner::Joint(_)) && phi.abs() > 1e-9 {
-                let what = if matches!(row.owner, RowOwner::Coupling) { format!("coupling `{}`", row.label) } else { "a driver".into() };
-                parts.push(format!("{what} stays off by {}", short(*phi)));
+        for (index, (row, phi)) in m.rows.iter().zip(&w.phi).enumerate() {
+            if row.anchored || matches!(row.owner, RowOwner::Joint(_)) || phi.abs() <= 1e-9 {
+                continue;
             }
+            parts.push(match m.drives.iter().find(|drive| drive.row == index) {
+                Some(drive) => {
+                    format!("driver `{}` stays off by {}", drive.name, written(phi.abs(), if row.angular { "rad" } else { "m" }))
+                }
+                None => format!("coupling `{}` stays off by {}", row.label, short(*phi)),
+            });
         }
         let long = loops.iter().rev().find_map(|open| open.too_long.as_ref());
         AssemblyFault {
@@ -61,6 +66,8 @@ impl<G: Space<S = f64>> System<'_, G> {
                 found.push(OpenLoop { joint: joint.name.clone(), path, sharers, gap, tilt, too_long: too_long(m, &shared) });
             }
         }
+        // the widest first
+        found.sort_by(|a, b| (b.gap / self.size).hypot(b.tilt).total_cmp(&(a.gap / self.size).hypot(a.tilt)));
         found
     }
 

@@ -279,7 +279,10 @@ impl<'n> Decoder<'n> {
                     format!("an option of `{word}`"),
                 );
                 fault.spot = Spot::Key;
-                fault.help = Some("remove it".to_owned());
+                let turned = key == "rpy" && space == "planar" && word == "slider";
+                let help =
+                    if turned { "remove it; the body does not turn there: give its points and `drawn` as they stand" } else { "remove it" };
+                fault.help = Some(help.to_owned());
             }
         }
     }
