@@ -4,6 +4,7 @@ mod gears;
 mod held;
 mod hidden;
 mod order;
+mod outlines;
 mod stops;
 mod welded;
 
@@ -257,7 +258,9 @@ fn links_say_what_they_are() {
     );
     let scene = &study(&text, "fall", Coordinates::Joint).scenes[0].1;
     let kinds: Vec<_> = scene.links.iter().map(|link| (link.name.as_str(), link.kind, link.rest)).collect();
-    assert_eq!(kinds, [("s", LinkKind::Spring, Some(1.0)), ("d", LinkKind::Torsion, None)]);
+    assert_eq!(kinds, [("s", LinkKind::Spring, Some(1.0))]);
+    // what only damps a hinge is its dashpot
+    assert_eq!(scene.joints.iter().map(|joint| joint.damped).collect::<Vec<_>>(), [false, true]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use super::scene::{Color, GREY, INK, Item, PALETTE, Rect, Scene, Stroke, pale};
 use super::sheet::{Sheet, body_color, extent, is_usable, near, size_of_signs};
 use super::symbols::{self, Looks, Signs};
 use super::thin::Point;
-use super::{font, forces, moves, thin};
+use super::{font, forces, moves, retraced, thin};
 
 const WIDTH: f64 = 1000.0;
 const LETTERS: f64 = 20.0;
@@ -22,6 +22,8 @@ const FEW: usize = 3;
 const NAMED: f64 = 0.25;
 /// Of massless rods.
 const ROD: Color = [200, 200, 196];
+/// Distance from the eye by which wheels must differ to be one behind the other, pixels.
+const SAME_DEPTH: f64 = 1e-6;
 
 /// Draws `drawing` as SVG and PNG, 1000 pixels wide and as high as its shape asks for.
 ///
@@ -168,7 +170,9 @@ impl Pen<'_> {
         let placed = |symbol: &Symbol| symbol.poses.get(pose).and_then(|placement| self.sheet.placement(placement));
         let joints: Vec<_> = self.drawing.joints.iter().filter_map(|symbol| Some((symbol, placed(symbol)?))).collect();
         for (symbol, placement) in &joints {
-            self.below(symbol, placement, &ink);
+            if !strong || !self.guides_in_front(symbol) {
+                self.below(symbol, placement, &ink);
+            }
         }
         self.forms(pose, strength, &joints);
         if !strong {
@@ -267,9 +271,20 @@ impl Pen<'_> {
         }
     }
 
-    /// The bearings of hinges that stand in front of bodies, behind which they would not be seen: in the plane of all with an outline, in
-    /// space of the own ones.
+    /// Whether a slide of the plane is guided by the ground: behind a wheel its guide would not be seen.
+    fn guides_in_front(&self, symbol: &Symbol) -> bool {
+        symbol.kind == SymbolKind::Slide && symbol.way_grounded && self.drawing.axes.is_none()
+    }
+
+    /// The guides of slides, and the bearings of hinges, that stand in front of bodies, behind which they would not be seen: in the plane of
+    /// all with an outline, in space of the own ones.
     fn bearings(&mut self, joints: &[(&Symbol, Placement)]) {
+        let ink = Looks { fill: [255; 3], edge: INK, strong: true, strength: 1.0 };
+        for (symbol, placement) in joints {
+            if self.guides_in_front(symbol) {
+                self.below(symbol, placement, &ink);
+            }
+        }
         let slides = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Slide | SymbolKind::Slot | SymbolKind::Plane);
         for (symbol, placement) in joints.iter().filter(|(symbol, _)| symbol.grounded && !slides(symbol)) {
             if self.drawing.axes.is_none() || self.is_covered(symbol, placement.at) {
@@ -301,7 +316,16 @@ impl Pen<'_> {
                 .filter_map(move |(k, form)| if pose == 0 { Some(form.clone()) } else { form.as_ghost(first.get(k)) });
             shown.map(move |form| (color, form))
         });
-        let (colors, all): (Vec<Color>, Vec<Form>) = bodies.chain(rods).filter(|(_, form)| self.sheet.form(form).is_some()).unzip();
+        // wheels about one place are as deep, whatever the rounding: their order stays while they move
+        let step = SAME_DEPTH / self.sheet.scale;
+        let even = |(color, mut form): (Color, Form)| {
+            if matches!(form.kind, FormKind::Wheel { .. }) {
+                form.depth = (form.depth / step).round() * step;
+            }
+            (color, form)
+        };
+        let (colors, all): (Vec<Color>, Vec<Form>) =
+            bodies.chain(rods).filter(|(_, form)| self.sheet.form(form).is_some()).map(even).unzip();
         let (sheet, signs) = (self.sheet, self.signs);
         let painted = painted(&all.iter().collect::<Vec<_>>(), |form| match sheet.form(form) {
             Some(FormKind::Bar { width, .. }) => signs.bar(width) / sheet.scale,
@@ -418,12 +442,14 @@ impl Pen<'_> {
         for (index, trace) in self.drawing.traces.iter().enumerate() {
             let (color, dash) = path_stroke(index);
             for piece in trace.points.split(|point| !is_usable(point)) {
-                let pixels = thin::thinned(self.sheet.points(piece), false);
-                self.letters.avoid_line(&pixels, Obstacle::Path);
-                match pixels[..] {
-                    [] => {}
-                    [only] => self.scene.circle(only, 4.0, Some(color), None),
-                    _ => self.scene.line(pixels, Stroke::dashed(color, 2.2, dash)),
+                for part in retraced::once(&self.sheet.points(piece)) {
+                    let pixels = thin::thinned(part, false);
+                    self.letters.avoid_line(&pixels, Obstacle::Path);
+                    match pixels[..] {
+                        [] => {}
+                        [only] => self.scene.circle(only, 4.0, Some(color), None),
+                        _ => self.scene.line(pixels, Stroke::dashed(color, 2.2, dash)),
+                    }
                 }
             }
         }

@@ -113,10 +113,11 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize]) -> Panel {
     }
     let mut y = Ruler::over(values_of(false), &axis, unit, figure.equal);
     y.pad(0.06);
-    if let Some((_, range)) = figure.ranges.iter().find(|(of, _)| of == unit) {
-        y.limit(*range);
+    let range = figure.ranges.iter().find(|(of, _)| of == unit).map(|(_, range)| *range);
+    if let Some(range) = range {
+        y.limit(range);
     }
-    let right = figure.right.as_ref().filter(|_| curves().any(|curve| curve.right)).map(|axis| {
+    let mut right = figure.right.as_ref().filter(|_| curves().any(|curve| curve.right)).map(|axis| {
         let mut axis = axis.clone();
         if axis.label.is_empty() {
             axis.label = curves().filter(|curve| curve.right).map(|curve| curve.label.as_str()).collect::<Vec<_>>().join(", ");
@@ -126,6 +127,9 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize]) -> Panel {
         ruler.limit(axis.range);
         ruler
     });
+    if let (Some(right), None, Some([None, None])) = (&mut right, range, figure.right.as_ref().map(|axis| axis.range)) {
+        Ruler::level(&mut y, right);
+    }
     let styles = figure.styles();
     let line = |&index: &usize| {
         let (color, dash) = styles[index];
@@ -138,10 +142,7 @@ fn panel(figure: &Figure, unit: &str, indices: &[usize]) -> Panel {
         Entry { label: curve.label.clone() + side, color: line.color, dash: line.dash, dots: line.dots }
     });
     // One curve whose name the axis has needs no legend.
-    let alone = names.len() == 1
-        && right.is_none()
-        && lines.len() == 1
-        && (indices.len() < figure.curves.len() || axis.label == names[0] || figure.curves.len() == 1);
+    let alone = names.len() == 1 && right.is_none() && lines.len() == 1 && (axis.label == names[0] || figure.curves.len() == 1);
     let entries = if alone || names.is_empty() { Vec::new() } else { entries.collect() };
     let marks = figure.marks.iter().filter(|mark| indices.contains(&mark.curve)).cloned().collect();
     Panel {
@@ -232,6 +233,39 @@ mod tests {
         let svg = svg(&figure);
         assert_eq!(lines(&svg).len(), 2);
         assert!(svg.contains(">theta in deg<") && svg.contains(">torque in N m<") && svg.contains(">dashed: switches<"));
+    }
+
+    #[test]
+    fn a_curve_alone_in_its_panel_is_named() {
+        let points = || (0..50).map(|k| (f64::from(k), f64::from(k).sin())).collect::<Vec<_>>();
+        let of = |label: &str| {
+            let speed = Curve { quantity: "angular speed".into(), ..curve(label, Some("rad/s"), points()) };
+            let figure = Figure { curves: vec![curve("a.angle", Some("rad"), points()), speed], ..Figure::default() };
+            svg(&figure).matches(&format!(">{label}")).count()
+        };
+        assert_eq!([of("a.omega"), of("output_rocker_with_a_long_name.omega")], [1, 1]);
+    }
+
+    #[test]
+    fn zeros_of_two_axes_are_level() {
+        let wave = |size: f64, shift: f64| (0..50).map(|k| (f64::from(k), size * (f64::from(k).sin() + shift))).collect::<Vec<_>>();
+        let right = Curve { right: true, ..curve("power", Some("W"), wave(80.0, -0.5)) };
+        let curves = vec![curve("torque", Some("N m"), wave(3.0, 0.4)), right];
+        let figure = |low: Option<f64>| Figure {
+            curves: curves.clone(),
+            right: Some(Axis { range: [low, None], ..axis("power", "W") }),
+            ..Figure::default()
+        };
+        let part = |ruler: &Ruler| ruler.place(0.0);
+        let parts = |figure: &Figure| {
+            let panel = panel(figure, "N m", &[0, 1]);
+            [part(&panel.y), part(&panel.right.expect("an axis on the right"))]
+        };
+        let [left, right] = parts(&figure(None));
+        assert!((left - right).abs() < 1e-12 && left > 0.2 && left < 0.8, "{left} {right}");
+        // ends that are given stay
+        let [left, right] = parts(&figure(Some(-120.0)));
+        assert!((left - right).abs() > 0.1, "{left} {right}");
     }
 
     #[test]

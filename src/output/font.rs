@@ -61,7 +61,7 @@ pub(super) fn fitted(text: &str, size: f64, room: f64) -> String {
     String::new()
 }
 
-/// `text` shortened in its middle: names of runs differ at their ends.
+/// `text` shortened in its middle: names of runs and of figures differ at their ends.
 pub(super) fn fitted_between(text: &str, size: f64, room: f64) -> String {
     let letters: Vec<char> = text.chars().collect();
     let cut = |kept: usize| {

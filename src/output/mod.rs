@@ -43,6 +43,7 @@ mod posed;
 mod raster;
 mod report;
 mod results_schema;
+mod retraced;
 mod row_files;
 mod row_writer;
 mod scalars;

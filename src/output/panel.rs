@@ -8,7 +8,7 @@ use super::scalars::significant;
 use super::scene::{Anchor, Color, GREY, GRID, INK, Item, Rect, Scene, Stroke, Text, pale};
 use super::thin::{self, Point};
 use super::ticks::{self, Tick};
-use super::{font, units};
+use super::{font, retraced, units};
 
 /// Font sizes: readable when the picture is shown at half its size.
 pub(super) const TICK: f64 = 20.0;
@@ -117,6 +117,21 @@ impl Ruler {
         }
     }
 
+    /// Widens two even axes so that their zeros are level, where both have one.
+    pub(super) fn level(a: &mut Self, b: &mut Self) {
+        let crosses = |ruler: &Self| ruler.scale == Scale::Linear && ruler.offset == 0.0 && ruler.low < 0.0 && ruler.high > 0.0;
+        if !crosses(a) || !crosses(b) {
+            return;
+        }
+        let below = |ruler: &Self| -ruler.low / (ruler.high - ruler.low);
+        let parts = [below(a), below(b)];
+        let (below, above) = (parts[0].max(parts[1]), 1.0 - parts[0].min(parts[1]));
+        for ruler in [a, b] {
+            let height = ruler.high - ruler.low;
+            (ruler.low, ruler.high) = (-below * height, above * height);
+        }
+    }
+
     /// Widens one of two even axes so that their units are equally long in `rect`.
     pub(super) fn equalize(x: &mut Self, y: &mut Self, rect: Rect) {
         if x.scale == Scale::Log || y.scale == Scale::Log {
@@ -164,7 +179,7 @@ impl Ruler {
     }
 
     /// Where an SI value lies, NaN if the axis cannot show it.
-    fn place(&self, x: f64) -> f64 {
+    pub(super) fn place(&self, x: f64) -> f64 {
         if x.abs() < HUGE && (self.scale == Scale::Linear || x > 1e-290) { self.part(self.show(x)) } else { f64::NAN }
     }
 
@@ -315,7 +330,12 @@ impl Panel {
                 }
                 if piece.len() > 1 && !line.dots {
                     let stroke = if dense(&piece) { Stroke::solid(line.color, 1.5) } else { Stroke::dashed(line.color, 3.0, line.dash) };
-                    scene.line(piece, stroke);
+                    if line.ordered || line.dash.is_empty() || dense(&piece) {
+                        scene.line(piece, stroke);
+                    } else {
+                        let parts = retraced::once(&piece).into_iter().map(|part| thin::thinned(part, false));
+                        parts.filter(|part| part.len() > 1).for_each(|part| scene.line(part, stroke));
+                    }
                 }
             }
             if line.is_short() && !line.dots {

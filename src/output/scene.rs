@@ -165,11 +165,11 @@ impl Scene {
         self.items.push(Item::Circle { at, radius, fill, stroke });
     }
 
-    /// The title in the middle above all, smaller if it is long.
+    /// The title in the middle above all, smaller if it is long, and without its middle if it is longer.
     pub(super) fn headline(&mut self, title: &str) {
         let room = self.width - 40.0;
         let size = (24.0 * room / font::width(title, 24.0).max(1.0)).clamp(18.0, 24.0);
-        self.text([self.width / 2.0, 36.0], font::fitted(title, size, room), size, Anchor::Middle);
+        self.text([self.width / 2.0, 36.0], font::fitted_between(title, size, room), size, Anchor::Middle);
     }
 
     /// A line of text, level and without halo.

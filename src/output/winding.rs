@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 type V = [f64; 3];
 
 /// Points of the arc of a belt on a drum, less one.
-const ARC: usize = 32;
+const ARC: usize = 96;
 /// Half length of the pitch line of a rack, in radii of its pinion.
 const RACK: f64 = 2.0;
 

@@ -173,6 +173,10 @@ impl Scale {
         let (head, (unit, size)) = match clock.real {
             true => (String::new(), ("s", 1.0)),
             false if results.kind == "modes" || independent.name.is_empty() => return None,
+            // as in figures
+            false if independent.shown_in.is_none() && independent.unit == "rad" => {
+                (format!("{} = ", independent.name), ("deg", 1f64.to_radians()))
+            }
             false => (format!("{} = ", independent.name), independent.shown()),
         };
         let ends = if clock.real { &clock.time } else { &clock.at };
@@ -231,7 +235,7 @@ mod tests {
         let (again, once) = (shot(&turn, Pace::Duration(2.0), true), shot(&turn, Pace::Duration(2.0), false));
         assert_eq!((again.at.len(), once.at.len()), (20, 21));
         assert_eq!((again.at[10], once.at[20]), (3.0, 6.0));
-        assert_eq!(again.readings.first().map(String::as_str), Some("theta = 0.00 rad"));
+        assert_eq!(again.readings.first().map(String::as_str), Some("theta = 0 deg"));
     }
 
     #[test]

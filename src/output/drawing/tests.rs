@@ -217,3 +217,20 @@ fn a_slide_that_areas_hide_is_shown_by_the_outline_of_its_box() {
     let outline = with.iter().find(|(points, filled)| points.len() == 4 && !filled).expect("an outline");
     assert!(!without.contains(outline));
 }
+
+#[test]
+fn a_guide_on_the_ground_stands_before_wheels_and_behind_bars() {
+    let way = Placement { way: Some([[0.0, -0.5], [0.0, 0.5]]), along: [0.0, 1.0], ..Placement::default() };
+    let slide = Symbol { kind: SymbolKind::Slide, way_grounded: true, boxed: true, poses: vec![way], ..Symbol::default() };
+    let disc = Form::flat(FormKind::Disc { center: [0.0; 2], radius: 1.0, spoke: None }, -3.0);
+    let bar = Form::flat(FormKind::Bar { from: [-1.0, 0.0], to: [1.0, 0.0], width: Width::Given(0.1) }, 0.0);
+    let bodies = vec![Outline::default(), named("wheel", vec![vec![disc]]), named("rod", vec![vec![bar]])];
+    let items = layout(&Drawing { bodies, joints: vec![slide], ..Drawing::default() }).items;
+    let wheel = items.iter().position(|item| matches!(item, Item::Circle { radius, .. } if *radius > 100.0)).expect("the wheel");
+    let wide = |points: &[Point]| points.iter().any(|p| points.iter().any(|q| (p[0] - q[0]).abs() > 300.0));
+    let rod = items.iter().rposition(|item| matches!(item, Item::Path { points, fill: Some(_), .. } if wide(points))).expect("the rod");
+    assert!(wheel < rod, "{wheel} {rod}");
+    // the wall with its hatching, and the box
+    let guide = items[wheel..rod].iter().filter(|item| matches!(item, Item::Path { .. })).count();
+    assert!(guide > 5, "{guide}");
+}

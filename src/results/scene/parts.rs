@@ -101,7 +101,7 @@ pub enum LinkKind {
     Rod,
     /// A distance that is prescribed: a cylinder with its rod.
     Actuator,
-    /// A spring or damper that turns about a hinge.
+    /// A spring that turns about a hinge.
     Torsion,
     /// A spring or damper between the turning of two hinges that stand apart.
     Shaft,

@@ -4,7 +4,7 @@ use super::guides::seen;
 use super::places::place;
 use crate::geometry::Space;
 use crate::mechanism::Mechanism;
-use crate::model;
+use crate::model::{self, SpringOn};
 use crate::results::Scene;
 use crate::results::scene::Joint;
 use crate::studies::common::case::Case;
@@ -37,7 +37,7 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
                 cut: joint.tree.is_none(),
                 driven: drivers.chain(case.model.motors.iter().map(|m| m.joint)).any(|driven| driven == index),
                 sense: 0.0,
-                damped: said.damping.is_some_and(|damping| case.value(damping) != 0.0),
+                damped: said.damping.is_some_and(|damping| case.value(damping) != 0.0) || joint.kind != "slider" && by_spring(case, index),
                 telescopes: false,
             };
             drawn.stroke = stroke(scene, &drawn);
@@ -45,6 +45,13 @@ pub(super) fn joints<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>
             seen(scene, drawn)
         })
         .collect()
+}
+
+/// Whether a spring on a joint damps it.
+fn by_spring(case: Case<'_>, joint: usize) -> bool {
+    let springs = case.model.springs.iter().filter(|spring| matches!(spring.on, SpringOn::Joint(on) if on == joint));
+    let varies = |damping| !case.model.pool.inputs_of(&[damping]).is_empty();
+    springs.filter_map(|spring| spring.damping).any(|damping| varies(damping) || case.value(damping) != 0.0)
 }
 
 /// Whether the model names the ground as the second body of a joint.

@@ -31,6 +31,10 @@ pub(super) fn links<G: Space<S = f64>>(case: Case<'_>, mechanism: &Mechanism<G>,
         let (turning, [a, b], rest) = match (&spring.on, stretch.of) {
             (&SpringOn::Joint(joint), _) => {
                 let joint = &mechanism.joints[joint];
+                // what only damps a hinge is the dashpot of the hinge
+                if joint.kind != "slider" && matches!(spring.law, SpringLaw::None) {
+                    return None;
+                }
                 let (turning, ends) = at_joint(mechanism, scene, joint, joint.kind != "slider");
                 (turning, ends, rest.map(|rest| rest - joint.zero))
             }

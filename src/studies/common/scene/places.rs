@@ -22,7 +22,7 @@ pub(super) fn same<G: Space<S = f64>>(a: G::Vector, b: G::Vector) -> bool {
 /// Places on a body that it has for others and for the user: joint points, ends of its bar, points of the file.
 pub(super) fn of_body<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) -> Vec<G::Vector> {
     let mut places: Vec<G::Vector> = Vec::new();
-    let of_joints = mechanism.joints.iter().flat_map(|joint| [joint.a, joint.b]).filter(|(b, _)| *b == body).map(|(_, at)| at);
+    let of_joints = of_joints(mechanism, body);
     let named = mechanism.bodies[body].points.iter().filter(|(name, _)| name != "origin" && name != "com").map(|(_, at)| *at);
     for at in of_joints.chain(named) {
         if places.iter().all(|other| !same::<G>(*other, at)) {
@@ -30,6 +30,11 @@ pub(super) fn of_body<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) 
         }
     }
     places
+}
+
+/// Points of a body that joints are at.
+pub(super) fn of_joints<G: Space<S = f64>>(mechanism: &Mechanism<G>, body: usize) -> impl Iterator<Item = G::Vector> + '_ {
+    mechanism.joints.iter().flat_map(|joint| [joint.a, joint.b]).filter(move |(b, _)| *b == body).map(|(_, at)| at)
 }
 
 /// All places on all bodies, those of joints on the ground included.

@@ -1,6 +1,6 @@
 //! Bodies and what they look like.
 
-use super::places::{numbers, of_body};
+use super::places::{numbers, of_body, of_joints};
 use crate::geometry::Space;
 use crate::mechanism::{self, Mechanism, Outline, Solid, SolidForm, axis_rotation};
 use crate::model::Model;
@@ -12,6 +12,8 @@ const LARGEST: f64 = 0.035;
 const ARM: f64 = 0.008;
 /// Distance of a centre of mass from the joint of a body without a shape from which on the body is drawn as an arm, as part of the size.
 const APART: f64 = 1e-3;
+/// Distance of a joint from the edge of an outline from which on it is beside it, as part of the size of the outline.
+const BESIDE: f64 = 0.005;
 /// Thickness of a thin bar, as part of its width.
 const THIN: f64 = 0.02;
 
@@ -91,17 +93,16 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
     if !body.solids.is_empty() {
         return solids(body, &all(&places));
     }
-    let outlined = G::VECTOR == 2 && is_simple(&drawn);
-    if !outlined {
-        places.extend(&body.drawn);
+    if G::VECTOR == 2 && is_simple(&drawn) {
+        let joints: Vec<G::Vector> = of_joints(mechanism, index).collect();
+        return outlined(drawn, &all(&joints));
     }
-    let outline = body.outline.map(|outline| outline_shape(outline, G::VECTOR));
-    let own = if outlined { Some(Shape::Polygon { points: drawn }) } else { outline };
-    let Some(own) = own else {
+    places.extend(&body.drawn);
+    let Some(own) = body.outline.map(|outline| outline_shape(outline, G::VECTOR)) else {
         return if places.is_empty() { Vec::new() } else { vec![Shape::Hull { points: all(&places) }] };
     };
     let within = match body.outline {
-        Some(Outline::Bar { from, to, width, height }) if !outlined => {
+        Some(Outline::Bar { from, to, width, height }) => {
             let [from, to] = [from, to].map(|end| end[..G::VECTOR].to_vec());
             Shape::Bar { from, to, width: Some(width.max(height)) }
         }
@@ -118,6 +119,22 @@ fn shapes<G: Space<S = f64>>(mechanism: &Mechanism<G>, index: usize) -> Vec<Shap
         }
         (own, _) => vec![Shape::Hull { points: [vec![vec![0.0; G::VECTOR]], all(&outside)].concat() }, own],
     }
+}
+
+/// An outline as the user has drawn it, and bars from its nearest edge to joints beside it.
+fn outlined(drawn: Vec<Vec<f64>>, joints: &[Vec<f64>]) -> Vec<Shape> {
+    let gap = |a: &[f64], b: &[f64]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let reach = drawn.iter().map(|p| gap(&drawn[0], p)).fold(0.0, f64::max);
+    let triple = |p: &[f64]| [p[0], p[1], 0.0];
+    let bar = |joint: &Vec<f64>| {
+        let edges = drawn.iter().zip(drawn.iter().cycle().skip(1));
+        let places = edges.map(|(a, b)| nearest([&triple(a), &triple(b)], joint));
+        let from = places.min_by(|a, b| gap(a, joint).total_cmp(&gap(b, joint)))?;
+        let beside = !is_inside(&drawn, joint) && gap(&from, joint) > BESIDE * reach;
+        beside.then(|| Shape::Bar { from, to: joint.clone(), width: None })
+    };
+    let bars: Vec<Shape> = joints.iter().filter_map(bar).collect();
+    bars.into_iter().chain([Shape::Polygon { points: drawn }]).collect()
 }
 
 /// The solids of a body, and bars from the nearest of them to places outside of all.
