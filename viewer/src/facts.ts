@@ -124,10 +124,29 @@ function distributions(study: Study): Child[] {
   ];
 }
 
+/** A number; what is nothing beside numbers of a size `most` is 0. */
+function sized(v: Num, most: number): Child {
+  return v !== null && v !== 0 && Math.abs(v) < NOTHING * most ? h('span', { title: digits(v) }, '0') : hinted(v);
+}
+
+/** The largest magnitude of some numbers. */
+function largest(values: Num[]): number {
+  return Math.max(0, ...values.map((v) => Math.abs(v ?? 0)));
+}
+
 /** Numbers of one quantity; what is nothing beside the largest of them is 0. */
 function beside(values: Num[]): Child[] {
-  const most = Math.max(0, ...values.map((v) => Math.abs(v ?? 0)));
-  return values.map((v) => (v !== null && v !== 0 && Math.abs(v) < NOTHING * most ? h('span', { title: digits(v) }, '0') : hinted(v)));
+  const most = largest(values);
+  return values.map((v) => sized(v, most));
+}
+
+/** The entries of a matrix by rows; what is nothing beside the largest of its row and of its column, which have units of their own, is 0. */
+function cells(matrix: Num[][]): Child[][] {
+  const columns = (matrix[0] ?? []).map((_, k) => largest(matrix.map((row) => row[k] ?? null)));
+  return matrix.map((row) => {
+    const most = largest(row);
+    return row.map((v, k) => sized(v, Math.min(most, columns[k] ?? 0)));
+  });
 }
 
 /** What the lists of a kind of study are of. */
@@ -152,7 +171,7 @@ function matrices(results: Results): Child[] {
   const rows: Record<string, string[]> = { A: linear.states, B: linear.states, C: linear.outputs, D: linear.outputs };
   return linear.matrices.filter(([, m]) => m.length > 0 && (m[0]?.length ?? 0) > 0).flatMap(([name, matrix]) => [
     h('h4', {}, name),
-    plain(`Matrix ${name}`, ['', ...(heads[name] ?? linear.coordinates)], matrix.map((row, i) => [(rows[name] ?? linear.coordinates)[i] ?? '', ...row.map(hinted)])),
+    plain(`Matrix ${name}`, ['', ...(heads[name] ?? linear.coordinates)], cells(matrix).map((row, i) => [(rows[name] ?? linear.coordinates)[i] ?? '', ...row])),
   ]);
 }
 

@@ -67,6 +67,8 @@ const STAY = 0.6;
 const CROWDED = 4;
 const NAMED = 0.2;
 const ROW = 14;
+/** Space between names in a row, pixels. */
+const WORD = 5;
 /** Parts of a bar where its name may stand, and of the radius of a disc, in so many directions. */
 const ALONG = [0.5, 0.35, 0.65, 0.2, 0.8];
 const RIM = 0.82;
@@ -76,6 +78,9 @@ const SIDES_NAMED = 6;
 const ROUND = 8;
 
 const overlap = (a: Box, b: Box, room = 0) => a[0] - room < b[2] && b[0] - room < a[2] && a[1] - room < b[3] && b[1] - room < a[3];
+
+/** Whether two names meet, or read as one in a row. */
+const meet = ([left, top, right, bottom]: Box, other: Box, room = 0) => overlap([left - WORD, top, right + WORD, bottom], other, room);
 
 /** The box of a text on one of its sides, where a sign takes more room than that of a joint. */
 function boxOn(side: number, [x, y]: Point, { width, room }: Pick<Group, 'width' | 'room'>): Box {
@@ -204,7 +209,7 @@ export class Names {
       const at = pixel(where(place), place);
       const box = within(boxOn(side, at, group), size);
       const room = this.hidden.has(text) ? BACK : 0;
-      if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => overlap(box, one.box, room))) {
+      if (!overlap([...at, ...at], [0, 0, ...size]) || this.drawn.some((one) => meet(box, one.box, room))) {
         hidden.add(text);
         continue;
       }
@@ -287,7 +292,7 @@ export class Names {
       const free = boxOn(side, own, group);
       const box = within(free, size);
       if (box[0] !== free[0] || box[1] !== free[1] || (box[0] < this.corner[0] && box[3] > size[1] - this.corner[1])) sum += COST.edge;
-      for (const boxes of taken.values()) if (overlap(box, boxes[k]!, 1)) sum += group.other ? COST.name : COST.joints;
+      for (const boxes of taken.values()) if (meet(box, boxes[k]!, 1)) sum += group.other ? COST.name : COST.joints;
       if (this.inSpace && group.bodies.length > 0) sum += COST.over * this.seenParts.filter((part) => !group.bodies.includes(part.body) && covers(part, k, box)).length;
       const away = toBox(own, box).far;
       for (const { points } of this.groups) {

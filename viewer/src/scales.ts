@@ -55,7 +55,8 @@ function placed(pen: Pen, arrows: Arrows, shown: Set<Kind>, pixels: (kind: Kind)
   let [right, foot] = [width - EDGE, height - 12];
   return [...all].reverse().map((one) => {
     const room = one.length + BEHIND + pen.width(one.text, LETTERS);
-    if (right - room < left && right < width - EDGE) [right, foot] = [width - EDGE, foot - ROW];
+    // above the bar of the scale is room for what is longer than beside it
+    if (right - room < left && (right < width - EDGE || foot === height - 12)) [right, foot] = [width - EDGE, foot - ROW];
     const from = right - room;
     right = from - BETWEEN;
     return { ...one, from, foot };

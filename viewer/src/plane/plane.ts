@@ -26,6 +26,8 @@ const MASS = 7.5;
 const BELOW = 38;
 /** About where the scale of lengths ends. */
 const BAR_ROOM = 200;
+/** Behind a wheel the guide would not be seen. */
+const isGuidedByGround = ({ kind, a }: Joint) => kind === 'slider' && a.body === 0;
 /** Frames of which the bounds are taken, and points of a path. */
 const LOOKS = 72;
 const PATH = 400;
@@ -161,9 +163,8 @@ export class Plane implements Renderer {
     if (scales > BELOW) fit(scales);
     pen.on.clearRect(0, 0, width, height);
     const { scene } = this.motion;
-    scene.joints.forEach((joint) => this.way(joint));
     // boxes lie under the bodies that slide, slots on those that they are cut into
-    scene.joints.forEach((joint) => this.box(joint));
+    this.guides(scene.joints.filter((joint) => !isGuidedByGround(joint)));
     // what is large lies below
     const shapes = scene.bodies.flatMap((body, index) => body.shapes.map((shape) => ({ depth: depth(shape) || this.stages.within[index]! * Number.MIN_VALUE, draw: () => this.shape(index, shape) })));
     const rods = scene.links.filter(({ kind }) => kind === 'rod').map((rod) => ({ depth: 0, draw: () => this.rod(rod) }));
@@ -173,8 +174,12 @@ export class Plane implements Renderer {
       pen.faintlyAll(PALE, () => bodies.forEach((one) => one.draw()));
     }
     this.place = place;
-    // bearings stand in front of all that has an outline, and behind bars
-    [...bodies, { depth: -Number.MIN_VALUE, draw: () => this.bearings() }].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
+    // guides on the ground and bearings stand in front of all that has an outline, and behind bars
+    const standing = () => {
+      this.guides(scene.joints.filter(isGuidedByGround));
+      this.bearings();
+    };
+    [...bodies, { depth: -Number.MIN_VALUE, draw: standing }].sort((a, b) => a.depth - b.depth).forEach((one) => one.draw());
     scene.joints.forEach((joint) => this.slot(joint));
     scene.gears.forEach((gear) => this.wound(gear));
     scene.links.filter(({ kind }) => kind !== 'rod').forEach((link) => this.link(link));
@@ -383,6 +388,12 @@ export class Plane implements Renderer {
   private way(joint: Joint): void {
     const { a, kind, telescopes, upper } = joint;
     if (!telescopes && signs.slides(joint) && kind !== 'pin-in-slot') signs.slideway(this.pen, ...this.ends(joint), a.body === 0 ? null : this.colors(a.body), this.clear(joint), this.inks, upper);
+  }
+
+  /** The ways of slides, and the boxes on them. */
+  private guides(joints: Joint[]): void {
+    joints.forEach((joint) => this.way(joint));
+    joints.forEach((joint) => this.box(joint));
   }
 
   /** Those of hinges on the ground, and of rods without mass. */

@@ -132,6 +132,16 @@ export function withEnds(low: number, high: number, shown: Shown, gap: number): 
   return linear(low, high, shown, gap);
 }
 
+/** Two axes whose zeros are level, where both have one, as in the figures of the program. */
+export function level(a: Axis, b: Axis, gap: number): [Axis, Axis] {
+  const crosses = ({ low, high, log, shown }: Axis) => !log && shown.offset === 0 && low < 0 && high > 0;
+  if (!crosses(a) || !crosses(b)) return [a, b];
+  const parts = [a, b].map(({ low, high }) => -low / (high - low));
+  const [below, above] = [Math.max(...parts), 1 - Math.min(...parts)];
+  const widened = ({ low, high, shown }: Axis) => linear(-below * (high - low), above * (high - low), shown, gap);
+  return [widened(a), widened(b)];
+}
+
 /** One way to show the numbers of two axes. */
 export function shared(unit: string, a: Axis, b: Axis): Shown {
   return shownFrom(-Math.max(...[a.low, a.high, b.low, b.high].map(Math.abs)), 0, unit, false);

@@ -2,7 +2,7 @@
 
 import { s } from '../dom';
 import type { Ends } from '../types';
-import { type Axis, axis, over, read, said, shared, withEnds } from './axis';
+import { type Axis, axis, level, over, read, said, shared, withEnds } from './axis';
 import { type Point, heads } from './heads';
 import { bounded } from './poles';
 
@@ -103,8 +103,11 @@ export function layout(figure: Figure, view: View): Layout {
     const left = shown.filter((curve) => curve.unit === own && !curve.right);
     const others = k === 0 ? shown.filter((curve) => curve.right) : [];
     const [fitted, cut] = upright(left, own, figure.ranges?.find((r) => r.unit === own)?.range, view.log);
-    const y = view.y && units.length === 1 ? over(...view.y, own, view.log, 44, true) : fitted;
-    const [right, cutRight] = k === 0 && figure.right ? upright(others, figure.right.unit, figure.right.range, false) : [undefined, false];
+    const chosen = view.y && units.length === 1 ? over(...view.y, own, view.log, 44, true) : null;
+    const [beside, cutRight] = k === 0 && figure.right ? upright(others, figure.right.unit, figure.right.range, false) : [undefined, false];
+    const open = (range: Ends | undefined) => (range ?? []).every((end) => end === null);
+    const free = !chosen && open(figure.ranges?.find((r) => r.unit === own)?.range) && open(figure.right?.range);
+    const [y, right] = beside && free ? level(fitted, beside, 44) : [chosen ?? fitted, beside];
     return { curves: [...left, ...others], unit: own, top: 12 + k * (height + 18), height, y, clipped: cut || cutRight, ...(right && { right }) };
   });
   const letters = (of: Axis | undefined, room: number) => (of ? of.ticks(room).map(({ text }) => text.length) : []);
