@@ -103,4 +103,15 @@ fn a_range_of_a_driver_follows_its_law() {
     for part in ["the driver never gets so far, but 2 m at most", "over: 2.5 m"] {
         assert!(rests.stderr.contains(part), "{part}: {}", rests.stderr);
     }
+    // a rise, a rest and a rise, straight and smooth: at the rest the coordinate tells no time
+    for law in [
+        "max(0, min(t/1 s, 1))*1 m + max(0, t/1 s - 1.5)*1 m",
+        "if(t < 1 s, 1 m/s*t*(2 - t/1 s), if(t < 2 s, 1 m, 1 m + 1 m*(t/1 s - 2)^2))",
+    ] {
+        let rests = run_text(&over_a_law(law), &["--no-plots"]);
+        assert!(rests.code == 2 && rests.stderr.contains("the driver rests on its way, after 1 m"), "{law}: {}", rests.stderr);
+        let over_time = over_a_law(law).replace("2.5 m", "4 s");
+        let end = run_text(&over_time, &["--no-plots"]).succeeded().table("s").rows.last().expect("rows")[1];
+        assert!(end == 4.0, "{law}: {end}");
+    }
 }

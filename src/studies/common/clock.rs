@@ -1,6 +1,6 @@
 //! The independent variable of a range: the driver's coordinate or time, and the time that belongs to it.
 
-use super::reach::{NeverThere, reached};
+use super::reach::{Look, NeverThere, reached};
 use crate::dynamics::Dynamics;
 use crate::expression::Dimension;
 use crate::geometry::Space;
@@ -8,6 +8,7 @@ use crate::mechanism::{Drive, Mechanism};
 use crate::numerics::root::root;
 use crate::results::six_digits;
 use std::convert::Infallible;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Progress s ≥ 0 along the motion (negative backwards), and what it means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +92,7 @@ impl Clock {
     /// negative), `from` being its coordinate at the start.
     ///
     /// # Errors
-    /// If the law stands still at its start or turns back before the range is done.
+    /// If the law stands still at its start, or rests or turns back before the range is done.
     pub fn of_driver<G: Space<S = f64>>(
         dynamics: &mut Dynamics<'_, G>,
         modes: &mut [i32],
@@ -102,18 +103,20 @@ impl Clock {
         let output = drive.output;
         let mut law = |t: f64| {
             dynamics.follow_time(t, modes);
-            [0, 1].map(|k| dynamics.work.motions[output + k])
+            let mut formula = DefaultHasher::new();
+            modes.hash(&mut formula);
+            Look { motion: [0, 1].map(|k| dynamics.work.motions[output + k]), formula: formula.finish() }
         };
         let backwards = if length < 0.0 { -1.0 } else { 1.0 };
         let length = length.abs();
-        let [f0, speed] = law(0.0);
+        let [f0, speed] = law(0.0).motion;
         if drive.steady && speed != 0.0 {
             let end = backwards * length / speed.abs();
             let direction = backwards * speed.signum();
             return Ok(Self { from, direction, length, driver: Some(output), speed: Some(backwards * speed.abs()), end });
         }
         let end = reached(&mut law, backwards, length, |x| told_coordinate(x, drive.turns))?;
-        let direction = (law(end)[0] - f0).signum();
+        let direction = (law(end).motion[0] - f0).signum();
         Ok(Self { from, direction, length, driver: Some(output), speed: None, end })
     }
 

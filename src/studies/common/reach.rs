@@ -15,23 +15,29 @@ const LOOKS: u32 = 2000;
 /// Part of the length by which a law may turn back, and by which it may miss the length where it does.
 const BACK: f64 = 1e-9;
 
+/// Part of a range over which a law has to rest.
+const STILL: f64 = 1e-9;
+
 /// Part of a time behind the end of the length within which a law that has come to rest there is followed to where it rests.
 const RESTING: f64 = 1e-3;
 
-/// The time at which a law has gone a length > 0, s, in the sense of time `sense` (1 or −1) from t = 0; `law` gives the coordinate and its speed
-/// at a time, `told` a length in words.
+/// A law at a time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    /// The coordinate and its speed.
+    pub(super) motion: [f64; 2],
+    /// A number of the formula that it has there: where two differ, there is a switch between them.
+    pub(super) formula: u64,
+}
+
+/// The time at which a law has gone a length > 0, s, in the sense of time `sense` (1 or −1) from t = 0; `told` gives a length in words.
 ///
 /// # Errors
-/// If it rests at its start, turns back before it has gone so far, or never does.
-pub(super) fn reached(
-    mut law: impl FnMut(f64) -> [f64; 2],
-    sense: f64,
-    length: f64,
-    told: impl Fn(f64) -> String,
-) -> Result<f64, NeverThere> {
-    let [from, _] = law(0.0);
+/// If it rests at its start or on its way, where its coordinate tells no time, turns back before it has gone so far, or never does.
+pub(super) fn reached(mut law: impl FnMut(f64) -> Look, sense: f64, length: f64, told: impl Fn(f64) -> String) -> Result<f64, NeverThere> {
+    let [from, _] = law(0.0).motion;
     let mut at = |t: f64| {
-        let [x, speed] = law(sense * t);
+        let [x, speed] = law(sense * t).motion;
         [x - from, sense * speed]
     };
     let way = match at(FIRST) {
@@ -75,7 +81,33 @@ pub(super) fn reached(
         }
         last = gone;
     }
+    if let Some(rest) = rest(|t| law(sense * t), end) {
+        let gone = (law(sense * rest).motion[0] - from).abs();
+        return Err(NeverThere(format!("the driver rests on its way, after {}", told(gone))));
+    }
     Ok(sense * end)
+}
+
+/// A time before `end` at which a law rests.
+fn rest(mut law: impl FnMut(f64) -> Look, end: f64) -> Option<f64> {
+    let rests = |law: &mut dyn FnMut(f64) -> Look, t: f64| [0.0, STILL * end].iter().all(|later| law(t + later).motion[1] == 0.0);
+    let look = |i: u32| end * f64::from(i) / f64::from(LOOKS);
+    if let Some(t) = (1..LOOKS).map(look).find(|t| rests(&mut law, *t)) {
+        return Some(t);
+    }
+    // shorter rests lie between two switches
+    let mut open: Vec<[f64; 2]> = (0..LOOKS).map(|i| [look(i), look(i + 1)]).collect();
+    while let Some([a, b]) = open.pop() {
+        if b - a <= STILL * end || law(a).formula == law(b).formula {
+            continue;
+        }
+        let middle = 0.5 * (a + b);
+        if rests(&mut law, middle) {
+            return Some(middle);
+        }
+        open.extend([[a, middle], [middle, b]]);
+    }
+    None
 }
 
 /// The first place between two, to round-off, from which on something holds that holds at the second.
@@ -95,7 +127,15 @@ mod tests {
     use super::*;
 
     fn of(law: impl Fn(f64) -> [f64; 2], sense: f64, length: f64) -> Result<f64, String> {
-        reached(law, sense, length, |x| format!("{x:.6}")).map_err(|never| never.0)
+        of_pieces(|t| (law(t), 0), sense, length)
+    }
+
+    fn of_pieces(law: impl Fn(f64) -> ([f64; 2], u64), sense: f64, length: f64) -> Result<f64, String> {
+        let look = |t: f64| {
+            let (motion, formula) = law(t);
+            Look { motion, formula }
+        };
+        reached(look, sense, length, |x| format!("{x:.6}")).map_err(|never| never.0)
     }
 
     #[test]
@@ -125,5 +165,28 @@ mod tests {
         assert!(of(rise, -1.0, 1.0).unwrap_err().starts_with("before its start, where a negative range leads, the driver stands still"));
         let late = |t: f64| [(t - 1.0).max(0.0), if t > 1.0 { 1.0 } else { 0.0 }];
         assert!(of(late, 1.0, 1.0).unwrap_err().starts_with("the driver stands still at first"));
+    }
+
+    #[test]
+    fn a_law_that_rests_on_its_way_has_no_range_beyond() {
+        // up to 1, a rest of so long, and on
+        for rest in [1.0, 1e-2, 1e-5, 1e-7] {
+            let law = |t: f64| match t {
+                t if t < 1.0 => ([t, 1.0], 0),
+                t if t < 1.0 + rest => ([1.0, 0.0], 1),
+                t => ([t - rest, 1.0], 2),
+            };
+            assert_eq!(of_pieces(law, 1.0, 1.7), Err("the driver rests on its way, after 1.000000".into()), "{rest}");
+            let back = |t: f64| {
+                let ([x, speed], formula) = law(-t);
+                ([x, -speed], formula)
+            };
+            assert_eq!(of_pieces(back, -1.0, 1.7), Err("the driver rests on its way, after 1.000000".into()), "{rest}");
+            assert!((of_pieces(law, 1.0, 0.9).unwrap() - 0.9).abs() < 1e-14);
+            assert!((of_pieces(law, 1.0, 1.0).unwrap() - 1.0).abs() < 1e-14);
+        }
+        // without speed for an instant, it goes on
+        let through = |t: f64| [(t - 1.0).powi(3) + 1.0, 3.0 * (t - 1.0).powi(2)];
+        assert!((of(through, 1.0, 2.0).unwrap() - 2.0).abs() < 1e-14);
     }
 }
