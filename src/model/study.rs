@@ -343,6 +343,16 @@ pub enum Values {
 }
 
 impl Values {
+    /// The numbers that they are made of.
+    #[must_use]
+    pub fn ids(&self) -> Vec<Id> {
+        match self {
+            Self::List(ids) | Self::Beside(ids) => ids.clone(),
+            Self::Span { from, to, .. } | Self::Uniform { from, to } => vec![*from, *to],
+            Self::Normal { mean, deviation } => vec![*mean, *deviation],
+        }
+    }
+
     /// Whether they are drawn.
     #[must_use]
     pub fn are_drawn(&self) -> bool {

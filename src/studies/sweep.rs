@@ -190,6 +190,7 @@ pub fn together_from(first: usize, model: &Model, study: &Study, runs: Vec<Run>,
     }
     findings.extend(findings_of(first, &runs, &labels));
     findings.extend(constant(study, &table));
+    findings.extend(study.sweep.iter().filter_map(|sweep| by_the_file(model, study, sweep)));
     Results {
         model: model.name.clone(),
         study: study.name.clone(),
@@ -246,6 +247,28 @@ fn constant(study: &Study, table: &Table) -> Option<Finding> {
         code: "sweep-constant".into(),
         message: format!("all scalars are the same in all {} runs: does anything depend on {}?", table.rows(), swept.join(" or ")),
         path: study.place.clone(),
+    })
+}
+
+/// That values which are made of another parameter of the sweep are made of its value in the file.
+fn by_the_file(model: &Model, study: &Study, sweep: &Sweep) -> Option<Finding> {
+    let (mut open, mut reached) = (sweep.values.ids(), Vec::new());
+    while let Some(id) = open.pop() {
+        for parameter in model.pool.parameters_of(&[id]).into_iter().map(|parameter| parameter as usize) {
+            if !reached.contains(&parameter) {
+                reached.push(parameter);
+                open.push(model.parameters[parameter].value);
+            }
+        }
+    }
+    let varied = study.sweep.iter().map(|other| other.parameter).find(|other| *other != sweep.parameter && reached.contains(other))?;
+    let [name, varied] = [sweep.parameter, varied].map(|parameter| &model.parameters[parameter].name);
+    Some(Finding {
+        code: "sweep-of-file".into(),
+        message: format!(
+            "values of `{name}` are made of `{varied}` as the file has it, in every run, although the sweep varies `{varied}`; for another one in each run give pairs by `points`"
+        ),
+        path: if sweep.place.is_empty() { study.place.clone() } else { sweep.place.clone() },
     })
 }
 

@@ -62,3 +62,21 @@ fn a_sweep_that_changes_nothing_is_told() {
     assert_eq!(told("spare", "1 m, 2 m"), None);
     assert_eq!(told("l3", "50 cm, 55 cm, 60 cm"), None);
 }
+
+#[test]
+fn values_made_of_another_swept_parameter_are_told() {
+    let text = POLES.replace("parameters: { l3: 55 cm }", "parameters: { l3: 55 cm, twice: 2*l3, spare: 1 m }");
+    let model = Model::parse(&text).unwrap();
+    let told = |first: (&str, &str), second: (&str, &str)| {
+        let results = model.study("turn").unwrap().over(first.0, first.1).over(second.0, second.1).run().unwrap();
+        results.findings.iter().filter(|f| f.code == "sweep-of-file").map(|f| f.message.to_string()).collect::<Vec<_>>()
+    };
+    // at once, and through a parameter
+    for values in ["l3, 2*l3", "1 m, twice"] {
+        let found = told(("l3", "50 cm, 55 cm"), ("spare", values));
+        assert!(found.len() == 1 && found[0].starts_with("values of `spare` are made of `l3` as the file has it"), "{found:?}");
+    }
+    // its own value, and one that is not swept
+    assert!(told(("l3", "l3, 1.01*l3"), ("spare", "1 m, 2 m")).is_empty());
+    assert!(told(("l3", "spare/2, 55 cm"), ("twice", "1 m, 2 m")).is_empty());
+}
