@@ -313,18 +313,17 @@ fn twice(text: &str, at: Spot) -> Vec<Fault> {
     let mut cut = Vec::new();
     for (first, second, key) in found {
         // `{ a: max(x, 1), b: max(y, 1) }` has the key `1)` twice
-        for place in [&first, &second].into_iter().filter(|_| commas::ends_a_call(&key)) {
-            if !cut.contains(place) {
-                cut.push(place.clone());
-                faults.push(commas::comma_before(text, place.clone()));
-            }
+        if commas::ends_a_call(&key) {
+            cut.extend([first, second]);
+            continue;
         }
-        if !commas::ends_a_call(&key) {
-            let mut fault = fault(&key, Spot::Bytes(second));
-            fault.other = Some((first, "first here".to_owned()));
-            faults.push(fault);
-        }
+        let mut fault = fault(&key, Spot::Bytes(second));
+        fault.other = Some((first, "first here".to_owned()));
+        faults.push(fault);
     }
+    cut.sort_by_key(|place| place.start);
+    cut.dedup();
+    faults.extend(cut.into_iter().map(|place| commas::comma_before(text, place)));
     faults
 }
 
